@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Context: what every command of the program shares: the log, the plugins (looked for at first use), and the work that
-// the chosen command leaves to be done once the command line is understood.
+// Context: shared by all commands of the program: the log, the plugins (loaded on first use), and the work of the
+// chosen command, which runs after the command line has been parsed.
 #pragma once
 
 #include "base/log.hpp"
@@ -20,8 +20,8 @@ namespace restage::app {
 // Data goes to stdout, everything else to stderr.
 enum ExitCode : int {
     exit_ok = 0,
-    exit_failed = 1, // understood, but failed
-    exit_usage = 2   // not understood: unknown option, missing argument
+    exit_failed = 1, // valid, but failed
+    exit_usage = 2   // invalid: unknown option, missing argument
 };
 
 inline plugin::RegistryOptions registry_options(bool safe_mode) {
@@ -46,10 +46,10 @@ class Context {
     bool quiet = false;
     bool safe_mode = false; // the program's own plugins only
     std::vector<std::string> plugin_paths; // searched first
-    bool isolate = false; // scenes are read in a process of their own
+    bool isolate = false; // scenes are read in a separate process
     double isolate_seconds = 300, isolate_gib = 4; // its limits
 
-    // The plugins, looked for at first use.
+    // The plugins, loaded on first use.
     plugin::Registry& registry() {
         if (!registry_) {
             registry_ = std::make_unique<plugin::Registry>(log, registry_options(safe_mode));

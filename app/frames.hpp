@@ -10,10 +10,10 @@
 
 namespace restage::app {
 
-// "7", "1-24", "1-24x2" (every second one), "1-3,9": in the order they are written.
+// "7", "1-24", "1-24x2" (every second one), "1-3,9": in the given order.
 Result<std::vector<std::uint32_t>> parse_frames(const std::string& text);
 
-// The last run of # becomes the number, with zeros in front up to as many digits: "shot.####.pbrt" -> "shot.0012.pbrt".
+// The last run of # is replaced by the number, padded with zeros to its length: "shot.####.pbrt" -> "shot.0012.pbrt".
 std::string frame_path(const std::string& path, std::uint32_t frame);
 
 } // namespace restage::app

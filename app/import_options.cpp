@@ -8,10 +8,10 @@ namespace restage::app {
 
 void add_import_options(CLI::App& command, std::vector<std::string>& assignments) {
     command
-        .add_option(
-            "--import-set", assignments,
-            "Option of the importer: of OBJ, PLY, STL and glTF, units=mm|cm|m|in|ft and up=y|z, of OBJ merge=true, of "
-            "glTF scene=NAME (may be repeated). Of a project: instead of those that it was saved with")
+        .add_option("--import-set", assignments,
+                    "Option of the importer: for OBJ, PLY, STL and glTF units=mm|cm|m|in|ft and up=y|z, for OBJ "
+                    "merge=true, for "
+                    "glTF scene=NAME (may be repeated). For a project: replaces the saved ones")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
 }

@@ -54,7 +54,7 @@ void ProgressBar::show(double done, const std::string& note) {
     if (quiet_) return;
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double>(now - last_).count();
-    // Outside a terminal only what takes long is worth a line.
+    // Outside a terminal only long work gets a line.
     if (terminal_ ? last_done_ >= 0 && since < 0.1 && done < 1 : since < 10) return;
     last_ = now;
     last_done_ = done;

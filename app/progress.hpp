@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Progress on stderr: a bar with the time left on a terminal, a line now and then elsewhere; and Ctrl-C as a flag.
+// Progress on stderr: on a terminal a bar with the time left, elsewhere an occasional line; and Ctrl-C as a flag.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ class ProgressBar {
   public:
     explicit ProgressBar(bool quiet = false);
     ~ProgressBar(); // ends the line
-    // done in [0,1]; `note` stands behind the bar: "12/64 spp"
+    // done in [0,1]; `note` is shown after the bar: "12/64 spp"
     void show(double done, const std::string& note);
     void finish();
 
@@ -22,10 +22,10 @@ class ProgressBar {
 };
 
 // From the first call on, SIGINT (Ctrl-C), SIGTERM and SIGHUP (a batch system's time limit, a closed terminal) set a
-// flag instead of ending the program; a second one ends it. What was ignored when the program started (nohup) stays
+// flag instead of ending the program; a second one ends it. Signals ignored at program start (nohup) stay
 // ignored.
 void catch_interrupts();
 bool interrupted();
-int interrupt_exit_code(); // 128 + the signal's number, as shells have it
+int interrupt_exit_code(); // 128 + the signal's number, as in shells
 
 } // namespace restage::app

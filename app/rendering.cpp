@@ -38,12 +38,12 @@ void add_device_options(CLI::App& command, render::RendererOptions& o) {
     command.add_option("--threads", o.threads, "Threads of the embree tracer (0 = all)")
         ->check(CLI::Range(0u, 1024u))
         ->capture_default_str();
-    command.add_flag("--validation", o.validation, "Turn Vulkan's validation layers on");
+    command.add_flag("--validation", o.validation, "Enable Vulkan's validation layers");
 }
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
     auto* spp =
-        command.add_option("--spp", o.spp, "Samples a pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
+        command.add_option("--spp", o.spp, "Samples per pixel (default: the scene's)")->check(CLI::Range(1u, 1u << 24));
     auto* time =
         command.add_option("--time", o.seconds, "Render for this long [s]")->check(CLI::PositiveNumber)->excludes(spp);
     command.add_option("--error", o.error, "Render until the relative standard error is below this, for example 0.02")
@@ -52,17 +52,17 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->excludes(time);
     command.add_option("--size", o.size, "Film size WxH [pixel], for example 640x360 (default: the scene's)");
     command.add_option("--camera", o.camera, "Camera by its name or number, from 1, as `restage info` lists them");
-    command.add_flag(
-        "--studio", o.studio,
-        "Light it with a neutral studio; where that light does not reach what the camera sees, also with a lamp there");
+    command.add_flag("--studio", o.studio,
+                     "Light the scene with a neutral studio; if that light does not reach what the camera sees, also "
+                     "with a lamp at the camera");
     command.add_option("--denoise", o.denoise, "Denoise the result; --denoise alone is high quality")
         ->expected(0, 1)
         ->default_str("high")
         ->check(CLI::IsMember({"fast", "balanced", "high"}));
     command.add_option("--denoiser", o.denoiser,
-                       "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
+                       "Use this denoiser: its type or the id of its plugin (default: the one shipped with "
                        "Restage); implies --denoise");
-    command.add_option("--max-depth", o.max_depth, "Most bounces of a path (default: the scene's)")
+    command.add_option("--max-depth", o.max_depth, "Maximum bounces of a path (default: the scene's)")
         ->check(CLI::Range(0, 65534));
     command
         .add_option("--russian-roulette", o.roulette,
@@ -70,7 +70,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->check(CLI::IsMember({"on", "off"}));
     command
         .add_option("--clamp-direct", o.clamp_direct,
-                    "Largest contribution of light seen directly or after no bounce (biased; 0 = off; default: the "
+                    "Largest contribution of directly visible or direct light (biased; 0 = off; default: the "
                     "scene's)")
         ->check(CLI::NonNegativeNumber);
     command
@@ -81,7 +81,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--ray-epsilon", o.ray_epsilon,
                     "Offset of ray origins [scene units] (0 = by error bounds, better; default: the scene's)")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--strategy", o.strategy, "How light is found: mis, light or bsdf (for study)")
+    command.add_option("--strategy", o.strategy, "Light sampling strategy: mis, light or bsdf (for comparisons)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))
         ->capture_default_str();
     command.add_option("--seed", o.renderer.seed, "Seed of the random numbers")->capture_default_str();
@@ -111,7 +111,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     RESTAGE_TRY(read.isolate, isolate_options(context));
     read.import_options = import_options;
     io::ImportedScene imported;
-    if (document::is_project(path)) { // as the editor saves them: the scene they began with, and the changes
+    if (document::is_project(path)) { // saved by the editor: the original scene, and the changes
         document::Session session(context.registry());
         RESTAGE_CHECK(session.open(path, read));
         imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};
@@ -120,7 +120,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     }
     bar.finish();
     if (strict) RESTAGE_CHECK(io::refuse_losses(imported.report, path));
-    for (const io::ReportEntry& entry : imported.report.entries) // what made the scene visible
+    for (const io::ReportEntry& entry : imported.report.entries) // light that was added
         if (entry.what == "exposure" || (entry.what == "light" && !entry.note.starts_with(document::no_light)))
             context.log.info(fmt::format("{}: {}: {}", path, entry.what, entry.note));
     const auto approximated = imported.report.count(io::Fate::approximated),
@@ -165,7 +165,7 @@ Result<scene::Id<scene::Camera>> choose_camera(const scene::Scene& scene, const 
     });
     if (const auto by_name = scene::find_by_name<scene::Camera>(scene, wanted)) return by_name;
     if (by_number) return by_number;
-    return fail(fmt::format("--camera {}: no such camera; there are {}", wanted, known.empty() ? "none" : known));
+    return fail(fmt::format("--camera {}: no such camera; known: {}", wanted, known.empty() ? "none" : known));
 }
 
 } // namespace
@@ -225,7 +225,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
             if (renderer.samples() >= 8 && error <= o.error) break;
         }
         bar.show(done, note);
-        // Batches of about 0.2 s, and none past a time target.
+        // Batches of about 0.2 s, none beyond a time target.
         const double per_sample = took / batch;
         double next = 0.2 / std::max(per_sample, 1e-6);
         if (o.seconds > 0) next = std::min(next, (o.seconds - elapsed) / std::max(per_sample, 1e-6));
@@ -234,13 +234,13 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     bar.finish();
     for (const auto& [type, count] : renderer.stats().not_finite)
         context.log.warning(
-            fmt::format("{} samples of material type \"{}\" were not finite and were left out", count, type));
+            fmt::format("{} samples of material type \"{}\" were non-finite and were omitted", count, type));
     if (renderer.stats().dropped > 0)
         context.log.warning(
             fmt::format("{} samples summed to more light than the film can hold, or to NaN, and were "
-                        "left out: look at the lights and the environment",
+                        "omitted: check the lights and the environment",
                         renderer.stats().dropped));
-    if (interrupted()) context.log.warning(fmt::format("stopped after {} samples a pixel", renderer.samples()));
+    if (interrupted()) context.log.warning(fmt::format("stopped after {} samples per pixel", renderer.samples()));
     return {};
 }
 
@@ -251,13 +251,13 @@ Result<void> denoise_picture(Context& context, const RenderOptions& o, Picture& 
                                                    : plugin::DenoiseQuality::high;
     RESTAGE_TRY(const auto chosen, render::choose_denoiser(context.registry(), o.denoiser));
     ProgressBar bar(context.quiet);
-    const bool before = interrupted(); // while it was rendered: what is there is still denoised
+    const bool before = interrupted(); // during rendering: the partial picture is still denoised
     auto denoised = render::denoise(picture.film, chosen, quality, o.renderer.threads, [&](double done) {
         bar.show(done, "denoising");
         return before || !interrupted();
     });
     if (!denoised && denoised.error().cancelled()) {
-        context.log.warning("denoising was stopped: the picture is written as it was rendered");
+        context.log.warning("denoising was stopped: the picture is written without it");
         return {};
     }
     RESTAGE_TRY(picture.denoised, std::move(denoised));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands that render share: options of the renderer, opening a scene with progress, rendering until a target
-// is met, and writing the picture.
+// Shared by the commands that render: options of the renderer, opening a scene with progress, rendering to a target,
+// and writing the picture.
 #pragma once
 
 #include "context.hpp"
@@ -24,29 +24,29 @@ struct RenderOptions {
     double error = 0; // > 0: stop at this relative error
     std::string size; // WxH
     std::string denoise; // "", fast, balanced, high
-    std::string denoiser; // type or plugin id; "" = the program's own
+    std::string denoiser; // type or plugin id; "" = the one shipped with the program
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette; // "", on, off
     std::optional<float> clamp_direct, clamp_indirect; // biased; none = the scene's
     std::optional<float> ray_epsilon; // 0 = error bounds
     std::string camera; // its name or number; "" = the active one
-    bool studio = false; // light it with one
+    bool studio = false; // add studio light
 };
 
 // --tracer, --device, --threads, --validation.
 void add_device_options(CLI::App& command, render::RendererOptions& options);
-// Those, and the other options of the renderer and the targets of a command.
+// Those, and all other options of the renderer and targets of a command.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
-// For tests: what RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES in the environment says, see gpu::DeviceFault; null if unset.
+// For tests: the environment variable RESTAGE_TEST_DEVICE_LOST=AFTER,TIMES, see gpu::DeviceFault; null if unset.
 std::shared_ptr<gpu::DeviceFault> device_fault();
 
-// With a progress bar; notes the report's counts in the log.
-// As `--isolate` and its limits say; null = scenes are read in this process.
+// With a progress bar; logs the report's counts.
+// According to `--isolate` and its limits; null = scenes are read in this process.
 Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context);
-// `strict`: what the import approximates or drops is an error (io/strict.hpp).
-// `import_options`: of its importer; of a project, instead of those that it was saved with.
+// `strict`: anything that the import approximates or drops is an error (io/strict.hpp).
+// `import_options`: of its importer; for a project they replace the saved ones.
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false,
                                      const std::optional<scene::ParamSet>& import_options = {});
 inline constexpr const char* strict_help =
@@ -55,7 +55,7 @@ inline constexpr const char* strict_help =
 // "640x360" as width and height in pixels; `option` is named in the error.
 Result<glm::uvec2> parse_size(const std::string& text, const char* option);
 
-// Puts camera, studio, size, depth and roulette of the options into the scene; reports a scene without light.
+// Applies camera, studio, size, depth and roulette of the options to the scene; reports a scene without light.
 Result<void> apply_options(Context& context, const RenderOptions& options, scene::Scene& scene);
 
 // Renders until the target is met or Ctrl-C. `label` precedes the progress.
@@ -63,9 +63,9 @@ Result<void> render_to_target(Context& context, const RenderOptions& options, co
                               render::Renderer& renderer, const std::string& label = "");
 
 using view::Picture;
-// When asked to (a missing denoiser is an error that says so).
+// If requested (a missing denoiser is an error).
 Result<void> denoise_picture(Context& context, const RenderOptions& options, Picture& picture);
-// Reads the film, and denoises it as above.
+// Reads the film, and denoises it likewise.
 Result<Picture> take_picture(Context& context, const RenderOptions& options, const scene::Scene& scene,
                              const render::Renderer& renderer);
 

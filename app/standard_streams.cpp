@@ -62,7 +62,7 @@ Result<> check_file_path(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     std::error_code code;
     if (!folder.empty() && !fs::is_directory(folder, code))
-        return fail(path + ": there is no folder " + folder.string() + "; create it first, or write elsewhere");
+        return fail(path + ": there is no folder " + folder.string() + "; create it first, or choose another folder");
     if (const auto there = fs::status(path, code); fs::exists(there) && !fs::is_regular_file(there))
         return fail(path + ": exists already and is not a file that can be replaced");
     return {};
@@ -73,7 +73,7 @@ Result<Output> Output::create(const std::string& text) {
     const std::string format = text == "-" ? "exr" : text.substr(0, text.size() - 2);
     static constexpr std::string_view known[] = {"exr", "png", "jpg", "jpeg", "pfm", "hdr"};
     if (std::find(std::begin(known), std::end(known), format) == std::end(known))
-        return fail("-o " + text + ": stdout takes exr:-, png:-, jpg:-, pfm:- or hdr:-; - alone is exr:-");
+        return fail("-o " + text + ": for stdout use exr:-, png:-, jpg:-, pfm:- or hdr:-; - alone is exr:-");
     std::error_code error;
     const fs::path folder = fs::temp_directory_path(error);
     if (error) return fail("-o " + text + ": no temporary folder: " + error.message());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes from stdin and pictures to stdout, for pipes. Formats are read and written as files, so both are stored in a
-// file meanwhile, which is removed when these go out of scope.
+// Scenes from stdin and pictures to stdout, for pipes. As formats are read and written as files, both use a temporary
+// file, which is removed when these go out of scope.
 #pragma once
 
 #include "base/result.hpp"
@@ -24,19 +24,19 @@ class TemporaryFile {
     std::filesystem::path path_; // empty = none
 };
 
-// All of stdin as a file of this extension in the current folder, so that the scene's own relative paths hold there.
+// All of stdin as a file with this extension in the current folder, so that the scene's relative paths are valid.
 Result<TemporaryFile> scene_from_stdin(const std::string& extension);
 
-// Before hours are spent: can a file be written there at all? "-" and "" pass.
+// Checks that a file can be written there, before hours are spent. "-" and "" pass.
 Result<> check_file_path(const std::string& path);
 
-// Where a picture is written. "-" and "exr:-" are stdout, "png:-" stdout in another format; else it is a path.
+// The destination of a picture. "-" and "exr:-" are stdout, "png:-" is stdout in another format; else it is a path.
 class Output {
   public:
     static Result<Output> create(const std::string& text);
-    const std::string& path() const { return path_; } // to write to
+    const std::string& path() const { return path_; } // path to write to
     bool to_stdout() const { return !file_.path().empty(); }
-    Result<> finish() const; // after it was written
+    Result<> finish() const; // call after writing it
 
   private:
     explicit Output(std::string path) : path_(std::move(path)) {}

@@ -23,7 +23,7 @@ void forbid_empty_values(CLI::App& program) {
             if (option->get_expected_min() == 0 || option->get_items_expected_max() == 0) continue; // a flag
             const bool number = option->get_type_name().find("FLOAT") != std::string::npos;
             option->check([number](const std::string& value) -> std::string {
-                if (value.empty()) return "the value is empty; give one, or leave the option out";
+                if (value.empty()) return "the value is empty; give one, or omit the option";
                 if (!number) return "";
                 double x = 0;
                 const char* begin = value.c_str() + (value[0] == '+');
@@ -55,7 +55,7 @@ std::string usage_sentence(const CLI::App& program, const CLI::Error& error) {
     rewrite("^(\\S+): (\\S+) not in \\{(.*)\\}$", "$1: \"$2\" is not one of $3");
     rewrite("^(\\S+): 1 required .* missing$", "$1 takes a value");
     rewrite("^(\\S+): At Most 1 required but received \\d+$", "$1 is given more than once");
-    rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, and got $3");
+    rewrite("^(\\S+): At least (\\d+) required but received (\\d+)$", "$1 takes $2 values, not $3");
     if (std::regex_match(text, m, std::regex("Could not convert: (\\S+) = (.*)"))) {
         const CLI::Option* option = chosen.empty() ? nullptr : chosen.front()->get_option_no_throw(m[1]);
         const bool whole = option && (option->get_type_name().starts_with("UINT") || m[1] == "--region");

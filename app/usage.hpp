@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Command line diagnostics: values that no option accepts, and mistakes as sentences.
+// Command line diagnostics: values that no option accepts, and error messages.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,9 +7,9 @@
 
 namespace restage::app {
 
-// No value may be empty, and no number NaN or infinite, of any command's options.
+// For the options of all commands: values must not be empty, and numbers must be finite.
 void forbid_empty_values(CLI::App& program);
-// What was wrong, and where help is.
+// The error, and where to find help.
 std::string usage_sentence(const CLI::App& program, const CLI::Error&);
 
 } // namespace restage::app

@@ -148,7 +148,7 @@ set(RESTAGE_OIDN_LIB_DIR "${RESTAGE_DEPS_DIR}/pyoidn/pyoidn/oidn/lib" CACHE PATH
     "Folder with libOpenImageDenoise.so.2 and the libraries it opens; it must be named 'lib'")
 
 # --- a software Vulkan device for tests ----------------------------------------------------------------------------------
-# The name of lavapipe's driver file differs between Mesa packages. Tests run on it wherever it is installed.
+# The name of lavapipe's driver file differs between Mesa packages. Tests run on it, wherever it is installed.
 file(GLOB lavapipe_files /usr/share/vulkan/icd.d/lvp_icd*.json /usr/local/share/vulkan/icd.d/lvp_icd*.json)
 if(lavapipe_files)
     list(GET lavapipe_files 0 lavapipe_files)

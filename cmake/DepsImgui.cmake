@@ -3,7 +3,7 @@
 # sources in RESTAGE_DEPS_DIR, or taken from vcpkg. None of it is built unless a target links it.
 set(bundle "${RESTAGE_DEPS_DIR}/imgui-bundle/external")
 if(NOT EXISTS "${bundle}/imgui/imgui/imgui.h")
-    restage_find_package(imgui CONFIG) # vcpkg's; the sources are what tools/setup unpacks
+    restage_find_package(imgui CONFIG) # vcpkg's; else the sources unpacked by tools/setup
     restage_dep(imgui imgui::imgui)
     restage_find_package(imguizmo CONFIG)
     restage_dep(imguizmo imguizmo::imguizmo)
@@ -47,6 +47,6 @@ if(RESTAGE_BUILD_TESTS) # not needed in a wheel
     restage_imgui_library(imgui_test_engine "${bundle}/imgui_test_engine/imgui_test_engine/imgui_test_engine" ${engine_sources})
     target_include_directories(dep_imgui_test_engine SYSTEM PUBLIC "${bundle}/imgui_test_engine/imgui_test_engine")
     target_link_libraries(dep_imgui_test_engine PUBLIC dep::imgui Threads::Threads)
-    # Dear ImGui calls the engine's hooks and the engine calls Dear ImGui: one links with the other.
+    # Dear ImGui calls the engine's hooks and the engine calls Dear ImGui, so each links the other.
     target_link_libraries(dep_imgui PUBLIC dep_imgui_test_engine)
 endif()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # restage_add_plugin(NAME <name> KIND <kind> [SOURCES <files>] MANIFEST plugin.json
 #                    [GLSL <files>] [FILES <files and folders>] [LINK <third-party targets>])
-# <kind>: material, texture, importer, exporter, denoiser, sky, action or panel. Of a bundle it is the chief one: part of
-# the folder's name and nothing else.
+# <kind>: material, texture, importer, exporter, denoiser, sky, action or panel. For a bundle it is the main one, used
+# only in the folder's name.
 # The build system part of the SDK, here and (find_package(Restage)) for plugins outside this repository.
 # Builds lib/restage/plugins/<kind>-<name>/ in the build tree: <name>.so, its manifest, its GLSL and files needed at
 # run time (FILES). A plugin sees the SDK headers and the third-party targets it names, nothing of the engine.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# restage_share_folder(<folder> [AS <name>]): makes the source folder share/restage/<name> in the build tree and the
+# restage_share_folder(<folder> [AS <name>]): provides the source folder as share/restage/<name> in the build tree and the
 # installed tree; the name defaults to the folder's own. In the build tree it is a link: edits need no build.
 function(restage_share_folder folder)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "AS" "")

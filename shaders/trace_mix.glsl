@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-tracing pipeline: what the stages that resolve mixes share.
+// Ray-tracing pipeline: shared by the stages that resolve mixes.
 #ifndef RESTAGE_TRACE_MIX
 #define RESTAGE_TRACE_MIX
 #include "lib/mix.glsl"

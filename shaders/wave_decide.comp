@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront: what the tracer on the CPU cannot say of a hit, because a texture has no native code: does the surface stop
-// the ray there, and which of a mix is it? The choices by chance stay the CPU's.
+// Wavefront: decides hits that the CPU tracer cannot, because a texture has no native code: whether the surface stops the
+// ray, and which material of a mix it has. The random choices are the CPU's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A plugin as users write them, compiled in every language the SDK is promised for (tests/CMakeLists.txt). */
+/* A typical plugin, compiled in every language that the SDK supports (tests/CMakeLists.txt). */
 #include <restage/material.h>
 
 static const RestageParam params[] = {

@@ -4,12 +4,12 @@
 
     build/venv/bin/python tools/material_balls.py [--restage build/bin/restage] [--thumbnails] [--sheet FILE.jpg] [TYPE...]
 
-On the ball of another scene, beside pbrt-v4's picture of it (two halves), with the material NAME of that file replaced:
+On the ball of another scene, next to pbrt-v4's picture of it (two halves), with the material NAME of that file replaced:
     ... --scene $RESTAGE_SCENES/material-testball/scene.pbrt --material Material --sheet OUT.png \\
         --reference $RESTAGE_REFERENCES/material-testball.1.exr $RESTAGE_REFERENCES/material-testball.2.exr
 Mind the licence of such a scene: its sheet is for viewing only.
 
-Materials are those of `restage plugins`; a new one needs no line here, but may have one in LOOKS."""
+Materials are those of `restage plugins`; a new one needs no entry here, but may have one in LOOKS."""
 
 import argparse
 import json
@@ -111,7 +111,7 @@ class Stage:
 
 
 def reference(halves, size):
-    """The mean of the pictures, its middle square: a narrower film shows as much of the height."""
+    """The mean of the pictures, cropped to the middle square: a narrower film shows the same height."""
     sys.path.insert(0, str(ROOT / "tests/scripts"))
     import exr_file
 
@@ -150,7 +150,7 @@ def look_without(look, ids):
 
 
 def draw_sheet(stage, chosen, halves):
-    """A row a material; above them pbrt's picture of the scene, and Restage's of the same file."""
+    """One row per material; above them pbrt's picture of the scene, and Restage's of the same file."""
     size = stage.options.size
     rows = list(sheet_rows(chosen))
     top = size + 20 if stage.options.scene else 0

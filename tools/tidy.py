@@ -29,7 +29,7 @@ def tracked_by_age():
 
 
 def fingerprint(command, directory):
-    """Hash of everything the verdict depends on, or None if the file does not preprocess (then tidy says why)."""
+    """Hash of everything the result depends on, or None if the file does not preprocess (then tidy reports why)."""
     # Without the compiler launcher, the output file and the dependency file; preprocess only.
     words = [w for w in shlex.split(command) if w != "-c" and not w.endswith("ccache")]
     if "-o" in words:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Unpacks the members of an sdist or wheel that match one of the patterns, less the archive's top folder.
+"""Unpacks the members of an sdist or wheel that match one of the patterns, without the archive's top folder.
 
 usage: unpack.py ARCHIVE TARGET PATTERN...   (fnmatch patterns over member paths; '*' also matches '/')
 A pattern that matches nothing is an error: the archive is not the one deps.lock expects.

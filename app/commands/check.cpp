@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage check PLUGIN...: does a plugin do what it promises? Each is tested in a process of its own.
+// restage check PLUGIN...: tests plugins against their contract, each in a separate process.
 #include "check/report.hpp"
 #include "check/supervise.hpp"
 #include "commands.hpp"
@@ -75,7 +75,7 @@ Result<int> run(const Options& o, Context& context) {
         }
         if (!report.unable.empty())
             context.log.error(report.id +
-                              ": its GLSL was not checked, for this machine cannot run it: " + report.unable);
+                              ": its GLSL was not checked, as this machine cannot run it: " + report.unable);
         reports.push_back(std::move(report));
     }
     if (!o.json.empty()) {
@@ -99,10 +99,10 @@ Result<int> run(const Options& o, Context& context) {
 
 void add_check(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
-    auto* command = program.add_subcommand("check", "Test plugins: do they do what they promise?");
+    auto* command = program.add_subcommand("check", "Test whether plugins meet their contract");
     command->add_option(
         "PLUGIN", o->plugins,
-        "Folder with a plugin.json, id of a plugin, or name of what it provides, for example diffuse (default: "
+        "Folder with a plugin.json, id of a plugin, or name of something it provides, for example diffuse (default: "
         "all plugins)");
     command->add_option("--json", o->json, "Write the reports as JSON (- = stdout, instead of text)")
         ->type_name("FILE");
@@ -118,11 +118,11 @@ void add_check(CLI::App& program, Context& context) {
     for (const auto* steps : check::all_steps())
         for (const check::Step& s : *steps)
             names.emplace_back(s.name);
-    command->add_option("--only", o->check.only, "Run this step alone (manifest and load come with it)")
+    command->add_option("--only", o->check.only, "Run only this step (and manifest and load)")
         ->check(CLI::IsMember(names))
         ->type_name("STEP");
-    command->add_flag("--quick", o->check.quick, "A few seconds a plugin: fewer configurations and samples");
-    command->add_option("--time-limit", o->time_limit, "Longest time without an answer from the plugin or the GPU [s]")
+    command->add_flag("--quick", o->check.quick, "A few seconds per plugin: fewer configurations and samples");
+    command->add_option("--time-limit", o->time_limit, "Longest time without a response from the plugin or the GPU [s]")
         ->check(CLI::Range(0.001, 86400.0))
         ->capture_default_str();
     command->add_flag("--in-process", o->in_process)->group(""); // for the processes this command starts

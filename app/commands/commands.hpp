@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of the program, one file each: add_<name> declares a subcommand with its options, whose callback hands
-// the work to Context::choose. To add one: a file here, a line here, a line in the list below.
+// The commands of the program, one file each: add_<name> declares a subcommand with its options, whose callback passes
+// the work to Context::choose. To add one: a new file, a declaration here, a line in the list below.
 #pragma once
 
 #include "context.hpp"
@@ -23,14 +23,14 @@ void add_check(CLI::App& program, Context& context);
 void add_new_plugin(CLI::App& program, Context& context);
 void add_import_child(CLI::App& program, Context& context);
 
-// What `compare` does with two scenes instead of two pictures (compare_scenes.cpp).
+// `compare` for two scenes instead of two pictures (compare_scenes.cpp).
 bool is_scene_file(const std::string& path);
 Result<int> compare_scenes(Context& context, const std::string& a, const std::string& b, bool json);
 
-// What `restage COMMAND --help` ends with, before what it inherits.
+// The end of `restage COMMAND --help`, before inherited options.
 void add_example(CLI::App& command, const char* example);
 
-// In the order `restage --help` shows them.
+// In the order of `restage --help`.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
     add_edit,    add_demo,    add_render, add_merge,      add_info,         add_convert,
     add_compare, add_plugins, add_check,  add_new_plugin, add_import_child,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage compare A B: how far picture A is from reference B, as text or JSON on stdout; of two scenes: what differs.
+// restage compare A B: the difference of picture A from reference B, as text or JSON on stdout; or of two scenes.
 
 #include "commands/commands.hpp"
 #include "io/exr.hpp"
@@ -55,7 +55,7 @@ Result<io::Estimate> load_estimate(const std::string& path, const scene::PixelDa
     const std::ptrdiff_t y = index("Y"), rgb[3] = {index("R"), index("G"), index("B")};
     if (y == count && (rgb[0] == count || rgb[1] == count || rgb[2] == count)) return io::Estimate{};
     io::Estimate estimate{.width = image.width, .height = image.height, .luminance = io::luminance(image)};
-    // Errors are those of the path-traced picture; where it was denoised, that is layer "noisy".
+    // Errors are those of the path-traced picture; in a denoised file it is the layer "noisy".
     if (const io::ExrLayer* noisy = exr.find("noisy"); noisy && noisy->channels.size() == 3 && !noisy->values.empty())
         estimate.luminance =
             io::luminance({.width = exr.width, .height = exr.height, .channels = 3, .values = noisy->values});
@@ -95,8 +95,8 @@ Result<Reference> load_reference(const Options& options, Log& log) {
     return Reference{std::move(image), std::move(*estimate)};
 }
 
-// A block each: black where z is 0, green up to the threshold; beyond it red where A is brighter, blue where darker,
-// and paler the farther.
+// One pixel per block: black at z = 0, green up to the threshold; beyond it red where A is brighter, blue where darker,
+// paler with distance.
 scene::PixelData z_picture(const io::ZTest& test) {
     scene::PixelData image{.width = test.columns, .height = test.rows, .channels = 3};
     for (const float z : test.z) {
@@ -111,7 +111,7 @@ scene::PixelData z_picture(const io::ZTest& test) {
     return image;
 }
 
-// Why the pictures are not the same, or "". Where the share of blocks decides, a single failing one does not.
+// Why the pictures differ, or "". With a limit on the fraction of blocks, a single failing block does not matter.
 std::string verdict(const Options& o, const io::Comparison& c, const std::optional<io::ZTest>& z) {
     if (o.max_flip && !(c.flip <= *o.max_flip))
         return fmt::format("FLIP is {:.5f}, more than --max-flip {:g}", c.flip, *o.max_flip);
@@ -171,7 +171,7 @@ std::string to_text(const io::Comparison& c, const std::optional<io::ZTest>& z) 
             100 * z->share_passing, z->z.size(), z->threshold, z->rms, z->worst, z->family_threshold,
             z->family_passes ? "pass" : "fail");
     else
-        text += "z-test  not possible: A needs a layer 'stderr', B one as well or --reference-halves\n";
+        text += "z-test  not possible: it needs a layer 'stderr' in A, and one in B or --reference-halves\n";
     return text;
 }
 
@@ -188,10 +188,10 @@ Result<> check_files(const Options& o) {
     for (const auto& [option, path] : {std::pair("--diff", &o.diff), std::pair("--z-map", &o.z_map)}) {
         if (path->empty()) continue;
         const std::string who = std::string(option) + " " + *path;
-        if (!path->ends_with(".png")) return fail(who + ": is written as PNG; end its name with .png");
+        if (!path->ends_with(".png")) return fail(who + ": is written as PNG; its name must end with .png");
         if (auto good = view::check_picture_path(*path); !good) return fail(option, good.error());
         for (const std::string& input : inputs)
-            if (same_file(*path, input)) return fail(who + ": would be written over a picture that is compared");
+            if (same_file(*path, input)) return fail(who + ": would overwrite one of the compared pictures");
     }
     if (o.halves.size() == 2 && same_file(o.halves[0], o.halves[1]))
         return fail("--reference-halves: " + o.halves[0] +
@@ -231,10 +231,10 @@ Result<int> run(const Options& options, Log& log) {
 
 void add_compare(CLI::App& program, Context& context) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = program.add_subcommand(
-        "compare",
-        "Measure how far picture A is from reference B, or say what differs between two scenes; exit code 1 = they "
-        "differ");
+    CLI::App* command = program.add_subcommand("compare",
+                                               "Measure the difference of picture A from reference B, or list the "
+                                               "differences of two scenes; exit code 1 = they "
+                                               "differ");
     command
         ->add_option("A", options->a,
                      "Picture (EXR, HDR, PFM; PNG, JPG, WebP, TGA, BMP as sRGB), or a scene or project")
@@ -255,23 +255,20 @@ void add_compare(CLI::App& program, Context& context) {
         ->type_name("PNG");
     command
         ->add_option("--clip", options->compare.clip,
-                     "Share of the brightest pixels that is clipped in both alike, for example 0.001 against fireflies "
+                     "Fraction of the brightest pixels to clip in both alike, for example 0.001 against fireflies "
                      "(default: 0)")
         ->check(CLI::Range(0.f, 1.f));
     command
-        ->add_option(
-            "--max-flip", options->max_flip,
-            "Fail (exit code 1) when FLIP, the difference people would see, is more than this, for example 0.05")
+        ->add_option("--max-flip", options->max_flip,
+                     "Fail (exit code 1) if FLIP, the perceived difference, exceeds this, for example 0.05")
         ->check(CLI::Range(0.0, 1.0));
     command
         ->add_option(
             "--min-blocks", options->min_blocks,
-            "Fail when a smaller share of the 8x8 blocks passes the z-test, for example 0.99 (default: the test "
+            "Fail if a smaller fraction of the 8x8 blocks passes the z-test, for example 0.99 (default: the test "
             "of all blocks together decides)")
         ->check(CLI::Range(0.0, 1.0));
-    command
-        ->add_option("--exposure", options->compare.exposure,
-                     "Brighten both before FLIP looks at them [stops] (default: 0)")
+    command->add_option("--exposure", options->compare.exposure, "Brighten both pictures for FLIP [stops] (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));
     add_example(*command, "restage compare new.exr reference.exr --diff where.png");
     command->callback([options, b, halves, &context] {

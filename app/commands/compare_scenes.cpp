@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage compare A B of two scenes (files or projects): do they mean the same picture, and if not, what differs.
+// restage compare A B for two scenes (files or projects): lists differences that affect the picture.
 #include "commands/commands.hpp"
 #include "document/session.hpp"
 #include "io/scene_compare.hpp"

@@ -33,7 +33,7 @@ bool is_picture(const std::string& path) {
     return std::find(std::begin(known), std::end(known), extension) != std::end(known);
 }
 
-// Layers of an EXR beside the picture itself, which conversion leaves out.
+// Layers of an EXR besides the picture itself, which conversion omits.
 std::string other_layers(const std::string& path) {
     const auto image = io::read_exr(path);
     std::string names;
@@ -51,7 +51,7 @@ Result<int> convert_picture(Context& context, const Options& o) {
     RESTAGE_TRY(scene::PixelData image, io::read_image(o.input, scene::Encoding::srgb, 2.2f, &warning));
     if (!warning.empty()) context.log.warning(warning);
     for (std::size_t i = 0; i < image.values.size(); ++i)
-        if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is not light
+        if (image.channels != 4 || i % 4 != 3) image.values[i] *= std::exp2(o.exposure); // alpha is not radiance
     RESTAGE_CHECK(io::write_image(o.output, image));
     if (const std::string others = other_layers(o.input); !others.empty())
         context.log.warning(fmt::format("{}: lacks the layers {} of {}", o.output, others, o.input));
@@ -62,11 +62,12 @@ Result<int> convert_picture(Context& context, const Options& o) {
 Result<int> run(Context& context, const Options& o) {
     std::error_code code;
     if (std::filesystem::equivalent(o.input, o.output, code))
-        return fail(o.output + ": is the input file; what the format cannot hold would be lost, write elsewhere");
+        return fail(o.output +
+                    ": is the input file; data that the format cannot hold would be lost, so choose another name");
     if (is_picture(o.input)) return convert_picture(context, o);
     if (o.exposure != 0) return fail("--exposure is for pictures; the exposure of a scene is that of its film");
     if (is_picture(o.output) && o.format.empty())
-        return fail(o.output + ": a scene becomes a picture with `restage render`");
+        return fail(o.output + ": use `restage render` to make a picture of a scene");
     RESTAGE_TRY(const auto exporter, io::find_exporter(o.output, o.format, context.registry()));
     io::ExportOptions options{.format = o.format};
     for (const auto& assignment : o.assignments)
@@ -93,7 +94,7 @@ void add_convert(CLI::App& program, Context& context) {
     command
         ->add_option(
             "OUT", o->output,
-            "File to write; its extension says the format: a scene becomes a .pbrt, a picture an .exr, .png, .jpg, "
+            "File to write; its extension selects the format: .pbrt for a scene; for a picture .exr, .png, .jpg, "
             ".pfm or .hdr")
         ->required();
     command->add_option("--format", o->format,
@@ -105,10 +106,11 @@ void add_convert(CLI::App& program, Context& context) {
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     add_import_options(*command, o->import_options);
-    command->add_flag("--strict", o->strict,
-                      "Write nothing if the written file would lack part of IN. What is only rendered differently "
-                      "(a kind of texture, say) and written as it was is no loss");
-    command->add_option("--exposure", o->exposure, "Brighten a picture by so many stops (default: 0)")
+    command->add_flag(
+        "--strict", o->strict,
+        "Write nothing if the written file would lack part of IN. Things that are only rendered differently "
+        "(some textures, for example) but are written unchanged do not count");
+    command->add_option("--exposure", o->exposure, "Brighten a picture by this number of stops (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));
     add_example(
         *command,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage demo: the main job without a window. Opens the bundled scene, edits it through the Session that the editor
-// uses, renders before and after, denoises, writes the edited scene as pbrt, and reads it back to see that it is the
-// same.
+// restage demo: the main job without a window. Opens the bundled scene, edits it through the editor's Session,
+// renders before and after, denoises, writes the edited scene as pbrt, and reads it back to check that it is
+// the same.
 #include "base/file.hpp"
 #include "commands.hpp"
 #include "document/session.hpp"
@@ -25,7 +25,7 @@ struct Options : RenderOptions {
 
 using Instances = std::vector<scene::Id<scene::Instance>>;
 
-// What a user would click: everything in the groups of this name, in file order.
+// The objects a user would click: everything in the groups of this name, in file order.
 Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view name) {
     std::vector<Instances> found;
     s.groups.each([&](scene::Id<scene::Group> id, const scene::Group& group) {
@@ -41,7 +41,7 @@ Result<std::vector<Instances>> objects(const scene::Scene& s, std::string_view n
     return found;
 }
 
-// Each line is one gesture at the desktop editor, and one step of the history.
+// Each line corresponds to one gesture in the desktop editor, and is one undo step.
 Result<std::vector<std::string>> restage_room(document::Session& session) {
     std::vector<std::string> log;
     const auto done = [&](std::string text) { log.push_back(std::move(text)); };
@@ -161,7 +161,7 @@ void add_demo(CLI::App& program, Context& context) {
     o->denoise = "high";
     auto* command = program.add_subcommand(
         "demo",
-        "Restage the bundled room: open, edit, render before and after, export; with 32 samples a pixel, in "
+        "Restage the bundled room: open, edit, render before and after, export; with 32 samples per pixel, at "
         "640x360 and denoised unless options say otherwise");
     command->add_option("-o,--output", o->folder, "Folder for the pictures and the edited scene")
         ->capture_default_str();

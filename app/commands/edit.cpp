@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage edit [SCENE]: the desktop editor. It is also what `restage SCENE` and `restage` alone do where there is a
+// restage edit [SCENE]: the desktop editor. `restage SCENE` and plain `restage` start it as well if there is a
 // display.
 #include "base/file.hpp"
 #include "commands.hpp"

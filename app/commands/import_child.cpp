@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage import-child IN OUT: what `--isolate` runs in a process of its own (document/isolate.hpp). Not for users.
+// restage import-child IN OUT: the separate process of `--isolate` (document/isolate.hpp). Not for users.
 #include "commands.hpp"
 #include "document/isolate.hpp"
 #include "io/options.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage info SCENE: what is in a scene file, and what its import kept, approximated and dropped.
+// restage info SCENE: contents of a scene file, and what its import kept, approximated and dropped.
 #include "commands.hpp"
 #include "document/exposure.hpp"
 #include "import_options.hpp"
@@ -108,14 +108,13 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
     std::printf(", environment: %s\n", l["environment"].get<std::string>().c_str());
     if (!d["lit"].get<bool>()) std::printf("            %s; `restage render --studio` lights it\n", document::no_light);
     line.clear();
-    for (std::size_t i = 0; i < d["camera_list"].size();
-         ++i) { // by these names and numbers `render --camera` takes them
+    for (std::size_t i = 0; i < d["camera_list"].size(); ++i) { // names and numbers for `render --camera`
         const auto& c = d["camera_list"][i];
         line += fmt::format("{}{} \"{}\"{}", i == 0 ? "" : ", ", i + 1, c["name"].get<std::string>(),
                             c["active"].get<bool>() ? " (active)" : "");
     }
     std::printf("cameras     %s\n", line.c_str());
-    std::printf("film        %dx%d, %zu samples a pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
+    std::printf("film        %dx%d, %zu samples per pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
                d["memory_bytes"]["pixels"].get<double>() * 1e-6);
@@ -143,7 +142,7 @@ void add_info(CLI::App& program, Context& context) {
     command->add_flag("--json", o->json, "Print it as JSON");
     add_import_options(*command, o->import_options);
     command->add_flag("--strict", o->strict, strict_help);
-    command->add_flag("--all", o->all, "List what was kept as well, not only what was approximated or dropped");
+    command->add_flag("--all", o->all, "Also list what was kept, not only what was approximated or dropped");
     add_example(*command, "restage info room.pbrt --all");
     command->callback([&context, o] {
         context.choose([&context, o]() -> Result<int> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage merge A.exr B.exr ... -o OUT: parts of one render, made separately, become one picture.
+// restage merge A.exr B.exr ... -o OUT: combines separately rendered parts of one picture.
 #include "commands.hpp"
 #include "rendering.hpp"
 #include "standard_streams.hpp"
@@ -57,7 +57,7 @@ void add_merge(CLI::App& program, Context& context) {
         ->default_str("high")
         ->check(CLI::IsMember({"fast", "balanced", "high"}));
     command->add_option("--denoiser", o->denoising.denoiser,
-                        "Denoise by this denoiser: its type or the id of its plugin (default: the one that came with "
+                        "Use this denoiser: its type or the id of its plugin (default: the one shipped with "
                         "Restage); implies --denoise");
     command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops] (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage new-plugin NAME --kind KIND: writes a plugin to begin with, that loads, passes `restage check` and does
-// something. The files are those of share/restage/templates/KIND/common and KIND/LANGUAGE, with @NAME@, @LABEL@ and
-// @ID@ replaced. A kind without such a folder is not offered.
+// restage new-plugin NAME --kind KIND: writes a working plugin to start from, which passes `restage check`. Its files
+// are those of share/restage/templates/KIND/common and KIND/LANGUAGE, with @NAME@, @LABEL@ and @ID@ replaced. A kind
+// without such a folder is not offered.
 #include "base/file.hpp"
 #include "commands.hpp"
 #include "plugin/manifest.hpp"
@@ -30,12 +30,12 @@ struct Options {
 
 struct Language {
     const char* name;
-    const char* written_in; // as the printed sentence says it
+    const char* written_in; // as in the printed sentence
 };
 constexpr Language json{"json", "JSON and GLSL, without native code"}, c{"c", "C"}, cpp{"cpp", "C++"},
     c_glsl{"c", "C and GLSL"}, cpp_glsl{"cpp", "C++ and GLSL"};
 
-// Who provides what has this name already, of one of the catalogue's lists; null: nobody.
+// The plugin that already provides this name in one of the catalogue's lists; null if none.
 template <auto List, auto Name>
 const Entry* provider(const Catalogue& catalogue, const std::string& name) {
     for (const auto& entry : catalogue.*List)
@@ -44,7 +44,7 @@ const Entry* provider(const Catalogue& catalogue, const std::string& name) {
 }
 
 struct Kind {
-    const char* name; // "importer": its folder of the templates, too
+    const char* name; // "importer": also its folder of templates
     const char* article;
     std::vector<Language> languages; // the first is the default
     bool glsl;                       // its name becomes the prefix of GLSL functions
@@ -103,7 +103,7 @@ std::string replace_all(std::string text, const std::string& what, const std::st
     return text;
 }
 
-// It becomes the name of files, of a build target, and of what scene files and commands call it.
+// Used as the name of files, of a build target, and in scene files and commands.
 Result<> check_name(const Kind& kind, const std::string& name, const Catalogue& catalogue) {
     const std::string sentence = "\"" + name + "\" cannot be the name of " + kind.article + " " + kind.name + ": ";
     const bool lower = std::all_of(name.begin(), name.end(),
@@ -112,8 +112,8 @@ Result<> check_name(const Kind& kind, const std::string& name, const Catalogue& 
         name.find("__") != std::string::npos || name.size() > 64)
         return fail(sentence + "lower case letters, digits and single _, a letter first");
     if (kind.glsl && !plugin::is_glsl_identifier(name))
-        return fail(sentence + "it is a word of GLSL, and it becomes the prefix of its functions");
-    if (kind.glsl && plugin::is_taken_prefix(name)) return fail(sentence + "functions of Restage's own begin with it");
+        return fail(sentence + "it is a reserved word of GLSL, and is used as the prefix of its functions");
+    if (kind.glsl && plugin::is_taken_prefix(name)) return fail(sentence + "Restage's own functions begin with it");
     if (const Entry* taken = kind.provider(catalogue, name))
         return fail(std::string("the ") + kind.name + " \"" + name + "\" exists already, in " + taken->name());
     return {};
@@ -136,7 +136,7 @@ Result<int> run(Context& context, Options o) {
         o.label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(o.label[0])));
     }
     const bool plain = std::none_of(o.label.begin(), o.label.end(), [](unsigned char ch) {
-        return ch < ' ' || ch == '"' || ch == '\\'; // it is written into JSON, C and comments
+        return ch < ' ' || ch == '"' || ch == '\\'; // it is inserted into JSON, C and comments
     });
     if (!plain || o.label.find("*/") != std::string::npos)
         return fail("--label: quotes, backslashes, line breaks and */ cannot be in a label: " + o.label);
@@ -178,19 +178,18 @@ Result<int> run(Context& context, Options o) {
 
 void add_new_plugin(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
-    auto* command = program.add_subcommand("new-plugin", "Write a plugin to begin with");
+    auto* command = program.add_subcommand("new-plugin", "Write a plugin to start from");
     command
-        ->add_option(
-            "NAME", o->name,
-            "Of the material, format, denoiser, ...: what scene files and commands will call it, for example velvet")
+        ->add_option("NAME", o->name,
+                     "Name of the material, format, denoiser, ... in scene files and commands, for example velvet")
         ->required();
-    command->add_option("--kind", o->kind, "What it brings")
+    command->add_option("--kind", o->kind, "Kind of plugin")
         ->check(CLI::IsMember(kinds_offered()))
         ->capture_default_str();
     command
         ->add_option("--language", o->language,
-                     "json: a table and GLSL, nothing to build, of materials and textures; c or cpp: a library "
-                     "(default: the first of these that the kind has)")
+                     "json: a table and GLSL, nothing to build, for materials and textures; c or cpp: a library "
+                     "(default: the first of these that the kind supports)")
         ->check(CLI::IsMember({"json", "c", "cpp"}));
     command->add_option("--label", o->label, "Name shown to users (default: NAME with a capital)");
     command->add_option("--id", o->id, "Id of the plugin, in reverse-DNS form (default: org.example.KIND.NAME)");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage plugins: which are loaded, from where, and which are not and why.
+// restage plugins: lists loaded plugins and their folders, and why others are not loaded.
 #include "commands.hpp"
 
 #include "plugin/provides.hpp"
@@ -60,9 +60,10 @@ Result<int> enable(Context& context, const std::string& id) {
 void add_plugins(CLI::App& program, Context& context) {
     auto json = std::make_shared<bool>(false);
     auto id = std::make_shared<std::string>();
-    auto* command = program.add_subcommand("plugins", "List plugins: what is loaded, from where, and why not");
+    auto* command =
+        program.add_subcommand("plugins", "List plugins: loaded ones and their folders, and why others are not loaded");
     command->add_flag("--json", *json, "Print the list as JSON");
-    command->add_option("--enable", *id, "Load the plugin with this id, which crashed, again")->type_name("ID");
+    command->add_option("--enable", *id, "Enable the plugin with this id again after a crash")->type_name("ID");
     add_example(*command, "restage plugins");
     command->callback([&context, json, id] {
         context.choose([&context, json, id] { return id->empty() ? run(context, *json) : enable(context, *id); });

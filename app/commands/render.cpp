@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage render SCENE -o out.exr: a scene file becomes a picture.
+// restage render SCENE -o out.exr: renders a scene file to a picture.
 #include "base/file.hpp"
 #include "base/version.hpp"
 #include "commands.hpp"
@@ -34,12 +34,12 @@ struct Options : RenderOptions {
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
     std::string resume;                // the picture to continue
-    std::vector<float> crop;           // x0 x1 y0 y1, shares of the film
+    std::vector<float> crop;           // x0 x1 y0 y1, fractions of the film
     std::vector<std::uint32_t> region; // x y width height [pixel]
     PictureOptions picture;
 };
 
-// The part of the film that is rendered. Shares are chosen so that Renderer's rounding yields exactly these pixels.
+// The part of the film to render. The fractions are such that Renderer's rounding yields exactly these pixels.
 Result<void> apply_crop(const Options& o, scene::Scene& scene) {
     if (o.crop.empty() && o.region.empty()) return {};
     scene::Film film = scene.film.value;
@@ -47,7 +47,8 @@ Result<void> apply_crop(const Options& o, scene::Scene& scene) {
         film.crop = {o.crop[0], o.crop[1], o.crop[2], o.crop[3]};
         if (!(film.crop.x >= 0 && film.crop.x < film.crop.y && film.crop.y <= 1 && film.crop.z >= 0 &&
               film.crop.z < film.crop.w && film.crop.w <= 1))
-            return fail("--crop: X0 X1 Y0 Y1 are shares of the film, 0 to 1, the first less than the second");
+            return fail(
+                "--crop: X0 X1 Y0 Y1 are fractions of the film, 0 to 1, the first of each pair less than the second");
     } else {
         const std::uint32_t x = o.region[0], y = o.region[1], width = o.region[2], height = o.region[3];
         if (width == 0 || height == 0 || x >= film.width || width > film.width - x || y >= film.height ||
@@ -76,7 +77,7 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
                                    {"height", picture.film.height},
                                    {"samples", picture.film.samples},
                                    {"seed", o.renderer.seed},
-                                   {"relative_error", nullptr}, // unknown with one sample a pixel
+                                   {"relative_error", nullptr}, // unknown with one sample per pixel
                                    {"seconds", stats.seconds},
                                    {"seconds_shading", stats.seconds_shading},
                                    {"seconds_tracing", stats.seconds_tracing},
@@ -91,7 +92,7 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
     return json;
 }
 
-// The options' changes, through a session as the editor makes them.
+// The options' changes, made through a session as in the editor.
 Result<void> apply_assignments(Context& context, const Options& o, scene::Scene& scene) {
     if (o.assignments.empty()) return {};
     document::Session session(context.registry());
@@ -103,7 +104,7 @@ Result<void> apply_assignments(Context& context, const Options& o, scene::Scene&
 }
 
 using Metadata = std::map<std::string, std::string>;
-Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as same_render compares it
+Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as compared by same_render
     std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
     for (const std::string& option : o.import_options)
         changes += (changes.empty() ? "import " : "; import ") + option;
@@ -115,7 +116,7 @@ Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as s
             {"restage:max_depth", std::to_string(scene.settings.value.max_depth)}};
 }
 
-// Where the new samples begin and how many there are, when some are in a picture already.
+// Start and number of the new samples if the picture already has some.
 Result<void> go_on(Options& o, const view::StoredPicture& before, const scene::Scene& scene) {
     if (auto same = view::same_render(what_is_rendered(o, scene), before.metadata); !same)
         return fail("--resume " + o.resume + " " + same.error().message);
@@ -123,18 +124,18 @@ Result<void> go_on(Options& o, const view::StoredPicture& before, const scene::S
     const glm::uvec4 window = scene::crop_window(film);
     const std::uint32_t width = window.y - window.x, height = window.w - window.z;
     if (width != before.film.width || height != before.film.height)
-        return fail(fmt::format("--resume {}: has {}x{} pixels, not {}x{}; say {}", o.resume, before.film.width,
+        return fail(fmt::format("--resume {}: has {}x{} pixels, not {}x{}; give {}", o.resume, before.film.width,
                                 before.film.height, width, height,
                                 width == film.width && height == film.height
                                     ? fmt::format("--size {}x{}", before.film.width, before.film.height)
-                                    : "the --size and the --crop or --region that it was rendered with"));
+                                    : "the --size and the --crop or --region with which it was rendered"));
     const std::uint32_t target = o.spp ? o.spp : scene.settings.value.samples ? scene.settings.value.samples : 64;
     for (const view::SampleRange& range : before.ranges)
         if (range.seed == o.renderer.seed) o.first_sample = std::max(o.first_sample, range.first + range.count);
     if (o.seconds > 0) return {};
     if (before.film.samples >= target)
-        return fail(fmt::format("--resume {}: has {} samples a pixel already; ask for more than that with --spp",
-                                o.resume, before.film.samples));
+        return fail(fmt::format("--resume {}: has {} samples per pixel already; give a larger --spp", o.resume,
+                                before.film.samples));
     o.spp = target - before.film.samples;
     return {};
 }
@@ -158,7 +159,7 @@ Result<void> add_to(const view::StoredPicture& before, Picture& picture, Metadat
     view::StoredPicture now{
         .film = std::move(picture.film), .layers = {names.begin(), names.end()}, .metadata = metadata, .ranges = {}};
     now.ranges = {{seed, first, now.film.samples}};
-    const float e = std::exchange(picture.exposure, 1.f); // files have it baked in
+    const float e = std::exchange(picture.exposure, 1.f); // files contain it
     for (std::size_t i = 0; i < now.film.color.size(); ++i) {
         now.film.color[i] *= e;
         now.film.std_error[i] *= e;
@@ -191,8 +192,8 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     RESTAGE_TRY(auto imported,
                 open_scene_with(context, piped ? piped->path().string() : o.scene, o.strict, o.import_options));
     scene::Scene& scene = imported.scene;
-    if (!scene.active_camera.value) // importers make one up; a project may have none yet
-        return fail(o.scene + ": " + scene::no_camera + "; add one to the scene it began with");
+    if (!scene.active_camera.value) // importers add one; a project may have none yet
+        return fail(o.scene + ": " + scene::no_camera + "; add one to its original scene");
     RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
     RESTAGE_CHECK(apply_crop(o, scene));
@@ -261,10 +262,10 @@ Result<void> check(Context& context, const Options& o) {
         return fail("--format is for a scene on stdin (-); a file's format follows from the file");
     if (o.frames.empty()) return {};
     if (o.scene.find('#') == std::string::npos)
-        return fail("--frames: mark the place of the number in the scene's name with #, for example shot.####.pbrt");
+        return fail("--frames: mark the number in the scene's name with #, for example shot.####.pbrt");
     for (const std::string& text : o.outputs)
         if (text.find('#') == std::string::npos && text != "-" && !text.ends_with(":-"))
-            return fail("--frames: -o " + text + " would be overwritten by each frame; # marks its number");
+            return fail("--frames: -o " + text + " would be overwritten by each frame; mark the number with #");
     return {};
 }
 
@@ -294,7 +295,7 @@ Result<int> run(Context& context, Options& o) {
 
 void add_render(CLI::App& program, Context& context) {
     auto o = std::make_shared<Options>();
-    auto* command = program.add_subcommand("render", "Path-trace a scene into a picture");
+    auto* command = program.add_subcommand("render", "Path-trace a scene to a picture");
     command->add_option("SCENE", o->scene, "Scene file or project; - = stdin")->required();
     command
         ->add_option("-o,--output", o->outputs,
@@ -306,7 +307,7 @@ void add_render(CLI::App& program, Context& context) {
     command
         ->add_option(
             "--frames", o->frames,
-            "Render one scene file a frame: 7, 1-24, 1-24x2 (every second) or 1-3,9; the number stands for the # in "
+            "Render one scene file per frame: 7, 1-24, 1-24x2 (every second) or 1-3,9; the number replaces the # in "
             "SCENE and -o, for example shot.####.pbrt -o shot.####.png")
         ->type_name("FRAMES");
     command
@@ -316,10 +317,9 @@ void add_render(CLI::App& program, Context& context) {
         ->type_name("NAME.FIELD=VALUE")
         ->allow_extra_args(false);
     add_import_options(*command, o->import_options);
-    auto* resume = command
-                       ->add_option("--resume", o->resume,
-                                    "Continue where this .exr ended: --spp counts its samples as well, --time does not")
-                       ->type_name("EXR");
+    auto* resume =
+        command->add_option("--resume", o->resume, "Continue this .exr: --spp includes its samples, --time does not")
+            ->type_name("EXR");
     command
         ->add_option(
             "--first-sample", o->first_sample,
@@ -328,7 +328,7 @@ void add_render(CLI::App& program, Context& context) {
         ->capture_default_str();
     auto* crop = command
                      ->add_option("--crop", o->crop,
-                                  "Render this part of the film only, in shares of it from the upper left corner: 0 "
+                                  "Render this part of the film only, as fractions from the upper left corner: 0 "
                                   "0.5 0 1 is the left half")
                      ->expected(4)
                      ->type_name("X0 X1 Y0 Y1");

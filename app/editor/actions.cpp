@@ -40,7 +40,7 @@ void remove_selected(Editor& e) {
 }
 
 void duplicate_selected(Editor& e) {
-    // A little to the side, so that the copy is visible.
+    // Displaced to the side, so that the copy is visible.
     const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
     document::Session& session = e.session_for_changes();
     if (e.selection.light()) {
@@ -75,7 +75,8 @@ void bookmark(Editor& e) {
     });
 }
 
-// The next bookmark after the one the view is at. Only its place is taken: lens and field of view are the camera's.
+// The bookmark after the current one. Only its position and orientation are used: lens and field of view are the
+// camera's.
 void next_bookmark(Editor& e) {
     std::vector<const scene::Camera*> places;
     std::size_t at = 0;
@@ -105,7 +106,7 @@ void drop_to_floor(Editor& e) {
     const auto ids = e.selection.instances();
     const auto distance = query::fall_distance(e.scene(), ids, e.up());
     if (!distance) {
-        e.notices.add(LogLevel::info, "There is nothing below to stand on");
+        e.notices.add(LogLevel::info, "There is nothing below the object");
         return;
     }
     const glm::dmat4 move = glm::translate(glm::dmat4(1), -e.up() * *distance);
@@ -119,10 +120,10 @@ void drop_to_floor(Editor& e) {
 void select_touching(Editor& e) {
     std::vector<InstanceId> more =
         query::touching(e.scene(), e.selection.instances(), [&](InstanceId id) { return e.locked.contains(id.value); });
-    e.notices.add(LogLevel::info, more.empty() ? "Nothing of its size touches it"
+    e.notices.add(LogLevel::info, more.empty() ? "Nothing of similar size touches it"
                                                : std::to_string(more.size()) + " more objects touch it");
     if (more.empty()) return;
-    more.push_back(e.selection.active()); // stays the active one
+    more.push_back(e.selection.active()); // remains the active object
     e.selection.set(more, Selection::Mode::add);
 }
 
@@ -179,7 +180,7 @@ void select_all(Editor& e) {
     e.selection.set(all);
 }
 
-// Actions that need no more of the editor than panels have.
+// Actions that need only what panels can access.
 template <auto what>
 void run(Editor& e) {
     what(e);
@@ -193,7 +194,7 @@ bool is_gizmo(const PanelContext& e) {
     return e.view.gizmo == mode;
 }
 
-// The order is the menus'. Keys as in Unity and Maya; the second ones as in Blender.
+// In menu order. Keys as in Unity and Maya; the second ones as in Blender.
 constexpr auto actions = std::to_array<Action>({
     {"file.new", "New", ImGuiMod_Ctrl | ImGuiKey_N, 0, "An empty studio: a floor, a neutral sky, a camera", nullptr,
      new_scene},
@@ -202,19 +203,19 @@ constexpr auto actions = std::to_array<Action>({
      "Adds a file's contents as new objects", has_scene, insert_dialog},
     {"file.import_again", "Import again...", 0, 0, "Reads the scene's file again with other options",
      [](const PanelContext& e) { return why_not_import_again(e).empty(); }, import_again},
-    {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the scene it began with and your changes",
-     has_scene, [](Editor& e) { save(e); }},
+    {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the original scene and your changes", has_scene,
+     [](Editor& e) { save(e); }},
     {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",
      has_scene, [](Editor& e) { save_as(e); }},
-    {"file.revert", "Revert...", 0, 0, "Back to what was opened or saved last",
+    {"file.revert", "Revert...", 0, 0, "Back to the last opened or saved state",
      [](const PanelContext& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
     {"file.export", "Export...", ImGuiMod_Ctrl | ImGuiKey_E, 0, "A scene file for other programs", has_scene,
      run<export_dialog>},
-    {"file.save_image", "Save picture...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0,
-     "The live picture as it is now", has_scene, run<save_image_dialog>},
+    {"file.save_image", "Save picture...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_E, 0, "The current live picture",
+     has_scene, run<save_image_dialog>},
     {"file.final", "Final picture...", ImGuiMod_Ctrl | ImGuiKey_R, 0,
-     "Render in full size and quality in the background, denoise, write", has_scene, run<final_render_dialog>},
-    {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks first if something is not saved", nullptr,
+     "Render at full size and quality in the background, denoise, and write", has_scene, run<final_render_dialog>},
+    {"file.quit", "Quit", ImGuiMod_Ctrl | ImGuiKey_Q, 0, "Asks first if there are unsaved changes", nullptr,
      [](Editor& e) { e.request_quit(); }},
     {"edit.undo", "Undo", ImGuiMod_Ctrl | ImGuiKey_Z, 0, "Undo the last change",
      [](const PanelContext& e) { return e.session().history().position() > 0; }, [](Editor& e) { e.undo(); }},
@@ -223,22 +224,26 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.session().history().position() < e.session().history().size(); },
      [](Editor& e) { e.redo(); }},
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
-     "A second one beside it; copies of objects share geometry and material", has_selection, duplicate_selected},
+     "Copies the selection next to it; copies of objects share geometry and material", has_selection,
+     duplicate_selected},
     {"edit.copy", "Copy", ImGuiMod_Ctrl | ImGuiKey_C, 0,
-     "Objects or a light into the clipboard, for this or another window of Restage", has_selection, run<copy_selected>},
+     "Copies objects or a light to the clipboard, for this or another Restage window", has_selection,
+     run<copy_selected>},
     {"edit.paste", "Paste", ImGuiMod_Ctrl | ImGuiKey_V, 0,
-     "What was copied, here or in another window; a material goes to what is selected", has_scene, paste},
-    {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove what is selected", has_selection, remove_selected},
-    {"edit.group", "Group", ImGuiMod_Ctrl | ImGuiKey_G, 0, "From now on a click picks all of what is selected now",
-     has_objects, run<group_selected>},
+     "Inserts copied things, also from another window; a material is assigned to the selection", has_scene, paste},
+    {"edit.delete", "Delete", ImGuiKey_Delete, ImGuiKey_X, "Remove the selection", has_selection, remove_selected},
+    {"edit.group", "Group", ImGuiMod_Ctrl | ImGuiKey_G, 0, "A click then selects all of the group", has_objects,
+     run<group_selected>},
     {"edit.ungroup", "Ungroup", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_G, 0,
-     "A click picks single objects of the selected group again",
-     [](const PanelContext& e) { return bool(group_of_selection(e)); }, [](Editor& e) { ungroup(e, group_of_selection(e)); }},
-    {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Let the selected objects fall onto what is below", has_objects,
+     "A click then selects single objects of the group again",
+     [](const PanelContext& e) { return bool(group_of_selection(e)); },
+     [](Editor& e) { ungroup(e, group_of_selection(e)); }},
+    {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Lowers the selected objects onto the surface below", has_objects,
      drop_to_floor},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
-    {"select.none", "None", ImGuiKey_Escape, 0, "Select nothing; leave the entered group; before that, close the help",
+    {"select.none", "None", ImGuiKey_Escape, 0,
+     "Clear the selection; leave the entered group; close the help first if it is open",
      [](const PanelContext& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
      [](Editor& e) {
          if (e.panel_open("Help")) return e.open_panel("Help", false);
@@ -246,58 +251,61 @@ constexpr auto actions = std::to_array<Action>({
          e.selection.enter({});
      }},
     {"select.touching", "What touches it", ImGuiKey_C, 0,
-     "Add the parts that the selected objects touch, and what these touch: a whole chair, or a table and what is on it. "
-     "Much larger things, like the floor, are left out",
+     "Adds the objects that the selection touches, and those that these touch: a whole chair, or a table with the "
+     "things on it. "
+     "Much larger objects, such as the floor, are excluded",
      has_objects, select_touching},
     {"select.hide", "Hide", ImGuiKey_H, 0, "Hide the selected objects, or switch the selected light off", has_selection,
      [](Editor& e) { set_hidden(e, true); }},
-    {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hide all others (lamps stay)", has_objects, isolate},
-    {"select.show_all", "Show all", ImGuiMod_Alt | ImGuiKey_H, 0, "Show what was hidden", has_scene, show_all},
-    {"select.lock", "Lock", ImGuiMod_Ctrl | ImGuiKey_L, 0, "Selected objects cannot be picked by clicks any more",
-     has_objects,
+    {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hides all other objects (lights stay on)",
+     has_objects, isolate},
+    {"select.show_all", "Show all", ImGuiMod_Alt | ImGuiKey_H, 0, "Shows hidden objects", has_scene, show_all},
+    {"select.lock", "Lock", ImGuiMod_Ctrl | ImGuiKey_L, 0, "Clicks no longer select these objects", has_objects,
      [](Editor& e) {
          for (const InstanceId id : e.selection.instances())
              e.locked.insert(id.value);
          e.selection.clear();
      }},
-    {"select.unlock_all", "Unlock all", 0, 0, "Every object can be picked again",
+    {"select.unlock_all", "Unlock all", 0, 0, "Clicks can select every object again",
      [](const PanelContext& e) { return !e.locked.empty(); }, [](Editor& e) { e.locked.clear(); }},
     {"view.frame_selected", "Frame selected", ImGuiKey_F, ImGuiKey_KeypadDecimal,
      "Move the camera so that the selection fills the picture", has_selection,
      [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},
-    {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is seen", has_scene,
+    {"view.frame_all", "Frame all", ImGuiKey_Home, 0, "Move the camera so that everything is visible", has_scene,
      [](Editor& e) { frame_bounds(e, scene::world_bounds(e.scene())); }},
     {"view.file_camera", "Camera of the file", ImGuiMod_Shift | ImGuiKey_Home, 0,
-     "To where the camera was when opened", [](const PanelContext& e) { return e.opened_camera() != nullptr; },
+     "To the camera's position when the file was opened",
+     [](const PanelContext& e) { return e.opened_camera() != nullptr; },
      [](Editor& e) { e.look_from(e.opened_camera()->camera_to_world, {}, "Camera of the file"); }},
-    {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To the previous view; undoes nothing",
+    {"view.back", "Back", ImGuiKey_LeftBracket, 0, "To the previous view; does not undo changes",
      [](const PanelContext& e) { return e.views.can_back(); }, [](Editor& e) { e.views.back(); }},
     {"view.forward", "Forward", ImGuiKey_RightBracket, 0, "To the next view",
      [](const PanelContext& e) { return e.views.can_forward(); }, [](Editor& e) { e.views.forward(); }},
     {"view.camera", "Look through the camera", ImGuiMod_Ctrl | ImGuiKey_Home, 0,
-     "To the scene's camera, which looking around does not move", view_is_apart,
+     "To the scene's camera, which navigation does not move", view_is_apart,
      [](Editor& e) { e.views.go(std::nullopt); }},
     {"view.set_camera", "Set camera to view", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_Home, 0,
-     "Moves the scene's camera here: exports, and renders by other programs, use it", view_is_apart,
-     set_camera_to_view},
+     "Moves the scene's camera here; exports and other programs use it", view_is_apart, set_camera_to_view},
     {"view.lock_camera", "Lock camera", 0, 0,
-     "Looking around leaves the scene's camera where it is. Off: the camera goes along, and each move can be undone",
-     nullptr, [](Editor& e) { e.view.camera_locked = !e.view.camera_locked; },
+     "Navigation does not move the scene's camera. Off: the camera follows, and each move can be undone", nullptr,
+     [](Editor& e) { e.view.camera_locked = !e.view.camera_locked; },
      [](const PanelContext& e) { return e.view.camera_locked; }},
-    {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Keep this view; it is saved with the scene", has_scene,
+    {"view.bookmark", "Bookmark view", ImGuiKey_B, 0, "Bookmark this view; it is saved with the scene", has_scene,
      bookmark},
     {"view.next_bookmark", "Next bookmark", ImGuiMod_Shift | ImGuiKey_B, 0, "Go to the next bookmarked view",
      [](const PanelContext& e) { return e.scene().cameras.live() > 1; }, next_bookmark},
     {"view.gizmo_select", "Select tool", ImGuiKey_Q, 0, "No handles", nullptr, set_gizmo<GizmoMode::select>,
      is_gizmo<GizmoMode::select>},
-    {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G, "Handles that move. Shift: a copy, Ctrl: in steps, Alt: up and down", nullptr,
-     set_gizmo<GizmoMode::move>, is_gizmo<GizmoMode::move>},
-    {"view.gizmo_rotate", "Rotate tool", ImGuiKey_E, ImGuiKey_R, "Handles that turn. Shift: a copy, Ctrl: in steps", nullptr,
-     set_gizmo<GizmoMode::rotate>, is_gizmo<GizmoMode::rotate>},
-    {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles that stretch. Shift: a copy, Ctrl: in steps", nullptr,
-     set_gizmo<GizmoMode::scale>, is_gizmo<GizmoMode::scale>},
+    {"view.gizmo_move", "Move tool", ImGuiKey_W, ImGuiKey_G,
+     "Handles to move. Shift: a copy, Ctrl: in steps, Alt: up and down", nullptr, set_gizmo<GizmoMode::move>,
+     is_gizmo<GizmoMode::move>},
+    {"view.gizmo_rotate", "Rotate tool", ImGuiKey_E, ImGuiKey_R, "Handles to rotate. Shift: a copy, Ctrl: in steps",
+     nullptr, set_gizmo<GizmoMode::rotate>, is_gizmo<GizmoMode::rotate>},
+    {"view.gizmo_scale", "Scale tool", ImGuiKey_R, ImGuiKey_S, "Handles to scale. Shift: a copy, Ctrl: in steps",
+     nullptr, set_gizmo<GizmoMode::scale>, is_gizmo<GizmoMode::scale>},
     {"view.local", "Local axes", ImGuiKey_L, 0, "Handles along the object's own axes instead of the world's", nullptr,
-     [](Editor& e) { e.view.local_axes = !e.view.local_axes; }, [](const PanelContext& e) { return e.view.local_axes; }},
+     [](Editor& e) { e.view.local_axes = !e.view.local_axes; },
+     [](const PanelContext& e) { return e.view.local_axes; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
      [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const PanelContext& e) { return e.view.denoise; }},
     {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
@@ -307,11 +315,12 @@ constexpr auto actions = std::to_array<Action>({
      nullptr, [](Editor& e) { e.view.inspect_pixels = !e.view.inspect_pixels; },
      [](const PanelContext& e) { return e.view.inspect_pixels; }},
     {"view.panels", "Panels", ImGuiKey_Tab, 0, "Show or hide all panels", nullptr,
-     [](Editor& e) { e.view.show_panels = !e.view.show_panels; }, [](const PanelContext& e) { return e.view.show_panels; }},
-    {"view.reset_layout", "Reset layout", 0, 0, "Puts every panel where it was at the first start", nullptr,
+     [](Editor& e) { e.view.show_panels = !e.view.show_panels; },
+     [](const PanelContext& e) { return e.view.show_panels; }},
+    {"view.reset_layout", "Reset layout", 0, 0, "Restores the initial layout of the panels", nullptr,
      [](Editor& e) { e.reset_layout(); }},
-    {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0,
-     "Every shortcut, and how to get around", nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
+    {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0, "All shortcuts, and how to navigate",
+     nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
      [](const PanelContext& e) { return e.panel_open("Help"); }},
 });
 
@@ -332,7 +341,7 @@ std::string key_text(ImGuiKeyChord key) {
     if (!key) return "";
     if (key == (ImGuiMod_Shift | ImGuiKey_Slash)) return "?"; // the character it types
     std::string text = ImGui::GetKeyChordName(key);
-    // Keys with a printed sign are named by it.
+    // Keys with a printed character are named after it.
     static constexpr std::pair<std::string_view, std::string_view> signs[] = {
         {"LeftBracket", "["},  {"RightBracket", "]"},   {"Slash", "/"},    {"Comma", ","},
         {"Period", "."},       {"Minus", "-"},          {"Equal", "="},    {"KeypadDecimal", "Keypad ."},
@@ -352,7 +361,7 @@ std::string label_of(const PanelContext& e, const Action& action) {
     constexpr std::size_t most = 48; // bytes
     std::string text = fmt::format("{} {}", action.label, step.substr(0, most));
     if (step.size() > most) {
-        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) // not inside a character
+        while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80) // not inside a UTF-8 sequence
             text.pop_back();
         if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0x80)) text.pop_back();
         text += "...";
@@ -365,7 +374,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const auto pressed = [&](ImGuiKeyChord key) {
         return keys ? std::find(keys->begin(), keys->end(), key) != keys->end() : ImGui::IsKeyChordPressed(key);
     };
-    if (editor.viewport.dragging()) { // an undo would pull what is dragged from under the mouse
+    if (editor.viewport.dragging()) { // an undo would remove the dragged things from under the mouse
         // With any modifiers: Shift while a copy is dragged.
         const bool escape =
             keys ? std::ranges::any_of(*keys,
@@ -374,7 +383,7 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
         if (escape) editor.viewport.cancel(editor);
         return;
     }
-    // While text is typed, a dialog is open, or the camera flies on WASD, keys mean something else.
+    // While text is typed, a dialog is open, or the camera flies on WASD, keys have other meanings.
     const bool popup = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
     // Dear ImGui closes menus and lists with Esc only where it also navigates by keys. Dialogs do it themselves.
     if (popup && keys && std::find(keys->begin(), keys->end(), ImGuiKey_Escape) != keys->end() &&
@@ -384,12 +393,12 @@ void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys) {
     const auto run = [&](auto&& wanted) {
         for (const Action& action : actions) {
             const ImGuiKeyChord key = key_of(action, editor.view.keys);
-            if (key == ImGuiKey_Escape && editor.pick_tool) continue; // gives up that, not the selection
+            if (key == ImGuiKey_Escape && editor.pick_tool) continue; // ends that, not the selection
             if (key && wanted(key)) editor.run(action.id);
         }
     };
     if (!keys) return run(pressed);
-    for (const ImGuiKeyChord one : *keys) // each, in order: a slow frame holds several of a kind
+    for (const ImGuiKeyChord one : *keys) // each, in order: a slow frame may contain several equal ones
         run([&](ImGuiKeyChord key) { return key == one; });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions: everything a menu, a key or a button can do, by name. One table gives menus, shortcuts, the help page and
-// the command palette; a button asks for an action by its id.
+// Actions: everything a menu, a key or a button can do, by name. One table defines menus, shortcuts, the help page and
+// the command palette; a button refers to an action by its id.
 #pragma once
 
 #include "preferences.hpp"
@@ -25,19 +25,20 @@ struct Action {
     const char* tooltip;  // one sentence
     bool (*enabled)(const PanelContext&); // null = always
     void (*run)(Editor&);
-    bool (*checked)(const PanelContext&) = nullptr; // null = not a switch
+    bool (*checked)(const PanelContext&) = nullptr; // null = not a toggle
 };
 
 std::span<const Action> all_actions();
 const Action* find_action(std::string_view id);
 ImGuiKeyChord key_of(const Action& action, KeyPreset preset);
 std::string key_text(ImGuiKeyChord key); // "Ctrl+Z", "?"; "" = none
-std::string label_of(const PanelContext& editor, const Action& action); // with what it would undo: "Undo Move chair"
+std::string label_of(const PanelContext& editor,
+                     const Action& action); // including the edit it would undo: "Undo Move chair"
 
-// Runs what keys ask for, once a frame; while text is typed or a dialog is open they are left alone. `keys`: see
+// Runs the actions of pressed keys, once per frame, except while text is typed or a dialog is open. `keys`: see
 // Editor::frame.
 void run_shortcuts(Editor& editor, const std::vector<ImGuiKeyChord>* keys);
-// A menu entry, or a button, of that action, with its shortcut and tooltip.
+// A menu entry, or a button, for that action, with its shortcut and tooltip.
 void menu_item(EditContext& editor, std::string_view id);
 bool action_button(EditContext& editor, std::string_view id, const char* label = nullptr);
 

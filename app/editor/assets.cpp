@@ -102,7 +102,7 @@ Result<std::vector<Asset>> read_assets(const fs::path& config, std::vector<std::
     if (!fs::exists(config, none)) return all;
     RESTAGE_TRY(const std::string text, read_file(config.string()));
     const auto json = parse_json<nlohmann::json>(text).value_or(nlohmann::json());
-    if (!json.is_object()) return fail(config.string() + ": not a JSON object; see README.md for what it holds");
+    if (!json.is_object()) return fail(config.string() + ": not a JSON object; README.md describes the format");
     const auto list = [&](const char* key, auto&& add) -> Result<void> {
         const auto found = json.find(key);
         if (found == json.end()) return {};
@@ -131,7 +131,7 @@ Result<void> add_asset_folder(const fs::path& config, const fs::path& folder) {
     if (fs::exists(config, none)) {
         RESTAGE_TRY(const std::string text, read_file(config.string()));
         json = parse_json<nlohmann::json>(text).value_or(nlohmann::json());
-        if (!json.is_object()) return fail(config.string() + ": not a JSON object: left as it is");
+        if (!json.is_object()) return fail(config.string() + ": not a JSON object; not changed");
     }
     if (!json["folders"].is_array()) json["folders"] = nlohmann::json::array();
     if (std::find(json["folders"].begin(), json["folders"].end(), folder.string()) != json["folders"].end()) return {};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assets: scenes, skies, textures and meshes on offer, from assets.json in the configuration's folder and
-// beside the program, and from folders:
+// Assets: available scenes, skies, textures and meshes, from assets.json in the configuration folder and
+// next to the program, and from folders:
 //   { "folders": ["/data/textures"], "scenes": ["room.pbrt"], "skies": ["noon.exr"], "textures": [], "meshes":
 //   ["cup.ply"] }
-// Paths are relative to the file. The name of a file in a folder gives its kind: HDR images are skies.
+// Paths are relative to the file. The kind of a file in a folder follows from its name: HDR images are skies.
 #pragma once
 
 #include "base/result.hpp"
@@ -27,10 +27,10 @@ struct Asset {
 
 // By the extension; false = not an asset.
 bool kind_of_file(const std::filesystem::path& file, AssetKind& kind);
-// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is told from a texture
-// by its range and by what its name or folder says. Sizes of 0 are not known yet.
+// Whether an image may be a sky: a panorama is twice as wide as high; a square one (octahedral) is distinguished from
+// a texture by its range and by its name or folder. Sizes of 0 are not known yet.
 bool plausible_sky(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height);
-// What the file lists, in its order; folders are searched three levels deep. Missing files are left out.
+// The assets that the file lists, in order; folders are searched three levels deep. Missing files are omitted.
 Result<std::vector<Asset>> read_assets(const std::filesystem::path& config,
                                        std::vector<std::string>* folders = nullptr);
 std::vector<Asset> assets_in(const std::filesystem::path& folder);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BackgroundJobs: work that takes a while (exports, final pictures) on threads of its own, each with a bar, its
-// current step, the time left, and a way to stop it.
+// BackgroundJobs: long work (exports, final pictures) on separate threads, each with a progress bar, its current step,
+// the time left, and a stop button.
 #pragma once
 
 #include "base/result.hpp"
@@ -24,8 +24,8 @@ class BackgroundJob {
     // [worker] done is 0..1. False: stop.
     bool report(double done, std::string_view stage);
     bool cancelled() const { return cancelled_; }
-    bool finish_early() const { return finish_early_; } // "that is enough", where the job offers it
-    // [worker] From here on a cancel ends what it does now, but not the job: what it returns is carried out.
+    bool finish_early() const { return finish_early_; } // stop early and keep the result, if the job offers it
+    // [worker] From here on cancelling ends the current work, but not the job: its result is still used.
     void keep_result() { keeps_result_ = true; }
     bool stopping() const { return cancelled_ || finish_early_; }
 

@@ -109,7 +109,7 @@ void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkI
 } // namespace
 
 void Canvas::begin(VkCommandBuffer commands, VkRect2D area) {
-    // The last frame's copy is done with it.
+    // The last frame's copy has finished.
     transition(commands, image_,
                std::exchange(fresh_, false) ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,

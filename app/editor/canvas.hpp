@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Canvas: the image in which the window's content is kept from frame to frame, so that parts of it can be redrawn.
+// Canvas: an image that keeps the window's content from frame to frame, so that parts of it can be redrawn.
 #pragma once
 
 #include "gpu/device.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panels see of the editor, from little to much. Each level adds one thing to the previous, and the signature of a
-// panel or of a part of it names the lowest that suffices (tests/scripts/test_layers.py):
-//   PanelUi          notices, preferences, background jobs, and what panels remember
+// The editor's interfaces for panels, in levels. Each level adds to the previous one, and a panel, or a part of it,
+// takes the lowest level that suffices (tests/scripts/test_layers.py):
+//   PanelUi          notices, preferences, background jobs, and the panels' own state
 //   DocumentContext  + the document, to read
 //   EditContext      + requests: edits, actions, dialogs
-//   SelectContext    + what is selected, and the viewpoint
-//   PanelContext     + the picture (panel_context.hpp). PictureView, the picture alone, is a part of its own.
+//   SelectContext    + the selection and the viewpoint
+//   PanelContext     + the picture (panel_context.hpp). PictureView, only the picture, is separate.
 // Requests are carried out in one place, after all panels are drawn (Editor::frame).
 // Everything here is [main] and inside a Dear ImGui frame.
 #pragma once
@@ -51,11 +51,11 @@ class PanelUi {
 
     Notices& notices;
     Preferences preferences;
-    std::unique_ptr<PanelState> panel_state; // what panels remember: searches, open folds
+    std::unique_ptr<PanelState> panel_state; // the panels' own state: searches, open folds
     Files& files() { return *files_; }
     const EditorOptions& options() const { return options_; }
     Log& log() { return log_; }
-    // Names the last item, or a place, for tests.
+    // Names the last item, or a position, for tests.
     void mark(const std::string& name) { marks_.item(name); }
     void mark(const std::string& name, const ImVec2& point) { marks_.area(name, point, point); }
     void mark(const std::string& name, const ImVec2& lower, const ImVec2& upper) { marks_.area(name, lower, upper); }
@@ -97,23 +97,23 @@ class DocumentContext : public PanelUi {
 
 class EditContext : public DocumentContext {
   public:
-    // For an edit. The builder sees the scene as it is when it runs; an error becomes a notice. Edits with
-    // the same gesture, until the mouse button or the widget is let go, are one step of the history.
+    // Requests an edit. The builder gets the scene as it is when it runs; an error becomes a notice. Edits with
+    // the same gesture, until the mouse button or the widget is released, are one undo step.
     using Builder = std::function<Result<scene::Edit>(const scene::Scene&)>;
     void edit(Builder builder, std::string gesture = {});
-    // For something beyond an edit, at the same point. Runs in order with the edits.
+    // Requests something other than an edit, at the same point. Runs in order with the edits.
     void later(std::function<void()> work);
     void change(std::function<void(document::Session&)> work);
     void end_gesture() { end_gesture_ = true; }
-    // For an action of actions.hpp, and how its menu entry looks.
+    // Runs an action of actions.hpp; the state of its menu entry.
     void run(std::string_view action) { actions_to_run_.emplace_back(action); }
     struct ActionState {
         bool enabled = false, checked = false;
-        std::string label, key; // with what it would undo: "Undo Move chair"; "Ctrl+Z" or ""
+        std::string label, key; // including the edit it would undo: "Undo Move chair"; "Ctrl+Z" or ""
     };
     virtual ActionState action_state(std::string_view action) const = 0;
     virtual void open(const std::filesystem::path& path) = 0; // asks about unsaved changes first
-    // A file as new objects, on what is seen at this point of the picture.
+    // Inserts a file as new objects, on the surface at this point of the picture.
     virtual void insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point = {}) = 0;
     // A modal that shows until its function returns false.
     void show_modal(std::string title, std::function<bool(PanelContext&)> body);
@@ -130,7 +130,7 @@ class EditContext : public DocumentContext {
     struct Modal {
         std::string title;
         std::function<bool(PanelContext&)> body;
-        int frames = 0; // it is shown for, in a window of this size
+        int frames = 0; // how long it is shown, in a window of this size
         float width = 0, height = 0;
     };
     std::vector<Pending> pending_;
@@ -143,13 +143,13 @@ class SelectContext : public EditContext {
   public:
     Selection selection;
     InstanceId hovered; // under the mouse in the viewport or a list, by the panels drawn in this frame
-    InstanceId hovered_before; // in the frame before: what is outlined
+    InstanceId hovered_before; // in the previous frame: drawn outlined
     std::set<std::uint32_t> locked; // Id<Instance>::value: not picked by clicks
     std::optional<PickTool> pick_tool;
     std::optional<scene::Id<scene::Material>> material_clipboard;
     Copied copied;
     ViewHistory views;
-    // The picture's viewpoint: the scene's camera, or the view that has left it.
+    // The picture's viewpoint: the scene's camera, or the view if it differs.
     const scene::Camera& camera() const;
 
   protected:
@@ -157,7 +157,7 @@ class SelectContext : public EditContext {
     ~SelectContext() = default;
 
   private:
-    mutable scene::Camera seen_from_; // camera() of a view that has left the scene's
+    mutable scene::Camera seen_from_; // camera() of a view that differs from the scene's camera
 };
 
 } // namespace restage::editor

@@ -30,7 +30,7 @@ void copy(SelectContext& e, const document::Selected& selected, const std::strin
     e.notices.add(LogLevel::info, "Copied " + what);
 }
 
-// Whether the pasted things are in the document now.
+// Whether the pasted things are currently in the document.
 void add(Editor& e, const document::Copy& copied) {
     document::Session& session = e.session_for_changes();
     if (copied.material) {
@@ -77,7 +77,7 @@ void paste(Editor& e) {
     const char* held = ImGui::GetClipboardText();
     std::string text = held ? held : "";
     if (!document::is_copy(text)) {
-        e.notices.add(LogLevel::info, "The clipboard holds nothing from Restage: copy objects or a material first");
+        e.notices.add(LogLevel::info, "The clipboard contains nothing from Restage: copy objects or a material first");
         return;
     }
     const auto& ours = e.copied.instances;
@@ -95,7 +95,7 @@ void paste(Editor& e) {
         if (!made) return e.notices.add(LogLevel::error, made.error().message);
         return e.selection.set(*made);
     }
-    // Things that name files read them.
+    // Pasted things that refer to files read them.
     e.files().jobs.start(
         {.title = "Pasting"},
         [text = std::move(text), &registry = e.registry(), &e](BackgroundJob&) -> std::function<void(PanelContext&)> {

@@ -14,7 +14,7 @@ namespace restage::editor {
 class Editor;
 class SelectContext;
 
-// What this window put into the clipboard last, to recognise it.
+// This window's last clipboard content, to recognise it.
 struct Copied {
     std::string text;
     std::vector<std::pair<scene::Id<scene::Instance>, scene::Instance>> instances; // as they were
@@ -22,10 +22,10 @@ struct Copied {
 
 void copy_selected(SelectContext& editor);
 void copy_material(SelectContext& editor, scene::Id<scene::Material> material);
-// Objects and lights are put where they were, beside existing ones; a material goes to what is selected.
+// Objects and lights keep their places, or are put next to existing ones; a material is assigned to the selection.
 void paste(Editor& editor);
 bool newer_in_clipboard(const SelectContext& editor); // something from another window
-// To the right of something as large as this, seen from the camera, along a world axis: where a copy of it is visible.
+// To the right, as seen from the camera, by the size of the thing, along a world axis: there a copy is visible.
 glm::dvec3 aside(const SelectContext& editor, const scene::Bounds& bounds);
 
 } // namespace restage::editor

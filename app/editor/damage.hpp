@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damage: the part of the window that differs from the frame before, so that only that is drawn again. Most frames
+// Damage: the part of the window that differs from the previous frame, so that only that is redrawn. Most frames
 // change the picture and a few numbers; without a GPU, drawing all panels each time took more than half of the
-// machine from the renderer.
+// CPU time from the renderer.
 #pragma once
 
 #include <imgui.h>
@@ -13,10 +13,10 @@ namespace restage::editor {
 
 class Damage {
   public:
-    // What differs from the draw data of the last call, in Dear ImGui's coordinates; Min >= Max: nothing. Call before
+    // The difference from the draw data of the last call, in Dear ImGui's coordinates; Min >= Max: nothing. Call before
     // the backend uploads textures: those still pending are the changed ones.
     ImRect update(const ImDrawData& data);
-    // Next time all of it differs: the window's content is lost.
+    // Everything counts as different next time: the window's content is lost.
     void forget() { forgotten_ = true; }
 
     // Restricts drawing to a rectangle.

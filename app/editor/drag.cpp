@@ -11,9 +11,9 @@ namespace restage::editor {
 
 namespace {
 
-constexpr double farthest = 8; // times the distance at the start of the drag, so that the horizon is not reached
+constexpr double farthest = 8; // times the distance at the start of the drag: keeps it away from the horizon
 
-// Where the ray meets the plane through `at`.
+// Where the ray hits the plane through `at`.
 std::optional<glm::dvec3> on_plane(const query::ViewRay& ray, const glm::dvec3& at, const glm::dvec3& normal) {
     const double slope = glm::dot(ray.direction, normal);
     const double t = glm::dot(at - ray.origin, normal) / slope;
@@ -54,7 +54,7 @@ void DragPath::begin(const glm::dvec3& at, const glm::dvec3& up, const Mouse& mo
 
 double DragPath::height(const Mouse& mouse) const {
     const glm::dvec3 d = glm::normalize(mouse.ray.direction), w = mouse.ray.origin - at_;
-    if (steep_) { // seen from above: upwards in the picture is up
+    if (steep_) { // seen from above: up in the picture moves up
         const glm::dvec3 ahead = glm::normalize(glm::cross(mouse.view_up, glm::cross(d, mouse.view_up)));
         const double t = -glm::dot(w, ahead) / glm::dot(d, ahead);
         return glm::dot(w + t * d, mouse.view_up);
@@ -79,7 +79,7 @@ glm::dvec3 DragPath::update(bool lift, const Mouse& mouse, std::optional<glm::dv
     if (lift)
         now_ = kept_ + up_ * stepped(glm::dvec3(height(mouse) - height_)).x;
     else if (handle)
-        now_ = kept_ + *handle - from_; // in steps already
+        now_ = kept_ + *handle - from_; // already in steps
     else if (const auto to = on_plane(mouse.ray, at_, up_))
         now_ = kept_ + stepped(*to - from_);
     return now_;
@@ -106,7 +106,7 @@ void begin_drag(PanelContext& e, Drag& drag, bool copy) {
     for (const InstanceId id : drag.originals)
         drag.start.emplace_back(id, s.instances[id].object_to_world);
     if (!copy) return;
-    // Copies are made where the originals are, and become what is dragged.
+    // Copies are created at the originals' places, and are dragged instead.
     if (auto made = scene::duplicate_instances(s, drag.originals, glm::dmat4(1))) {
         for (std::size_t i = 0; i < drag.start.size(); ++i)
             drag.start[i].first = made->copies[i];

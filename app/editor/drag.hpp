@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dragging what is selected, by its handles, by the knob between them or by itself. One rule for all: what is moved
-// keeps the plane it stands on, Shift drags a copy, Ctrl goes in steps, Alt lifts; Esc or a right click cancels. A drag
-// is one step of the history, and none when it ends where it began.
+// Dragging the selection by its handles, by the knob between them or directly. Common rules: moved things stay on the
+// plane they stand on, Shift drags a copy, Ctrl moves in steps, Alt lifts; Esc or a right click cancels. A drag is one
+// undo step, or none if it ends where it began.
 #pragma once
 
 #include "query/navigation.hpp"
@@ -22,9 +22,9 @@ class DragPath {
   public:
     struct Mouse {
         query::ViewRay ray; // through it
-        glm::dvec3 view_up; // the camera's own, where the ray looks along `up`
+        glm::dvec3 view_up; // the camera's if the ray is along `up`
     };
-    // `at`: a point of what is dragged, in world space, near the ray. `handle`: by an axis handle.
+    // `at`: a point of the dragged things, in world space, near the ray. `handle`: by an axis handle.
     void begin(const glm::dvec3& at, const glm::dvec3& up, const Mouse& mouse, bool handle);
     // `handle`: an axis handle's displacement; none = over the plane. `step`: of movement from now on; 0 = any.
     glm::dvec3 update(bool lift, const Mouse& mouse, std::optional<glm::dvec3> handle, double step);
@@ -33,17 +33,17 @@ class DragPath {
     double height(const Mouse& mouse) const; // along up_, of the point nearest to the ray
 
     glm::dvec3 up_{0, 1, 0};
-    glm::dvec3 at_{0}, kept_{0}, now_{0}; // place and displacement at the last change; displacement now
+    glm::dvec3 at_{0}, kept_{0}, now_{0}; // place and displacement at the last change; current displacement
     glm::dvec3 from_{0}; // the mouse then: on the plane, or along the handle
     double height_ = 0;
     bool lifting_ = false, steep_ = false;
 };
 
-// A running drag: what was selected, where it was, and the handles' frame, at its start.
+// A running drag: the selection, its places, and the handles' frame, at the start.
 struct Drag {
     bool active = false;
     bool copied = false;
-    std::vector<InstanceId> originals; // selected before copies were
+    std::vector<InstanceId> originals; // the selection before the copies were selected
     std::vector<std::pair<InstanceId, glm::dmat4>> start;
     scene::Id<scene::Light> light, original_light;
     glm::dmat4 light_start{1};
@@ -54,11 +54,11 @@ struct Drag {
     glm::mat4 current{1};
 };
 
-// Notes what is dragged, or copies of it, and where it is.
+// Records the dragged things, or copies of them, and their places.
 void begin_drag(PanelContext& editor, Drag& drag, bool copy);
-// Asks for the start transformed by `by`. PanelContext::end_gesture() ends it.
+// Requests the initial places transformed by `by`. PanelContext::end_gesture() ends it.
 void ask_drag(PanelContext& editor, const Drag& drag, const glm::dmat4& by, const char* verb);
-// Its changes are undone, leaving no step in the history.
+// Reverts its changes, leaving no undo step.
 void cancel_drag(PanelContext& editor, Drag& drag);
 
 } // namespace restage::editor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PanelContext::drop and the placing of an inserted file: things arrive where the mouse is.
+// PanelContext::drop and the placement of an inserted file at the mouse position.
 #include "drop.hpp"
 
 #include "document/session.hpp"
@@ -44,7 +44,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jpeg", "tga", "bmp",
                                                               "webp", "hdr", "exr",  "pfm"};
 
-// The target object of a file dropped there; from the scene, not from the picture, which may be out of date.
+// The target object of a file dropped there; computed from the scene, as the picture may be out of date.
 InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
     if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
     const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
@@ -70,7 +70,7 @@ bool becomes_sky(const std::string& extension, InstanceId on) {
 Result<scene::Edit> make_texture(const scene::Scene& s, const plugin::Registry& registry, scene::Id<scene::Material> id,
                                  const fs::path& path, const std::shared_ptr<const scene::PixelData>& pixels) {
     const scene::Material* material = s.materials.find(id);
-    if (!material) return fail("There is no material to put the image on");
+    if (!material) return fail("There is no material for the image");
     const auto plugin = registry.find_material(material->type);
     if (!plugin)
         return fail("material \"" + material->name + "\": no plugin \"" + material->type +
@@ -157,14 +157,14 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
         if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
-        // Object files join the open scene; scenes, and anything when no scene is open, are opened.
+        // Object files are inserted into the open scene; scenes, and any file if no scene is open, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
             open(path);
-            return; // only one can be opened
+            return; // only one of them
         }
     }
 }
@@ -242,7 +242,7 @@ Result<scene::Edit> edit_in_scope(
     const scene::Scene& s, const MaterialScope& scope,
     const std::function<Result<scene::Edit>(const scene::Scene&, scene::Id<scene::Material>)>& build) {
     const scene::Instance* instance = scope.objects.empty() ? nullptr : s.instances.find(scope.objects.back());
-    if (!instance || !s.materials.find(instance->material)) return fail("There is no material to put it on");
+    if (!instance || !s.materials.find(instance->material)) return fail("There is no material to apply it to");
     if (!scope.alone) return build(s, instance->material);
     RESTAGE_TRY(scene::MadeUnique unique, scene::make_unique(s, scope.objects, instance->material));
     scene::Scene apart = s; // shares its data
@@ -256,7 +256,7 @@ Result<scene::Edit> edit_in_scope(
 
 void Editor::place_inserted(const io::ImportedScene& imported) {
     const Opening::Request& request = opening_->request();
-    // The middle of its underside lands on the visible surface there.
+    // The centre of its underside is placed on the visible surface there.
     const query::ViewRay ray =
         query::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
     const auto hits = query::raycast_all(scene(), ray.origin, ray.direction);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file dropped on the picture would do, and to what. PanelContext::drop does it.
+// The effect and target of a file dropped on the picture. PanelContext::drop carries it out.
 #pragma once
 
 #include "base/result.hpp"
@@ -17,11 +17,11 @@ namespace restage::editor {
 class PanelContext;
 class SelectContext;
 
-// While it is dragged over that point: outlines its target object and says what a drop would do.
+// While it is dragged over that point: outlines the target object and describes the effect of a drop.
 void preview_drop(PanelContext& editor, const std::filesystem::path& path, ImVec2 screen);
 
-// Calls `then` with the material to change for these objects: at once where no others share theirs; else
-// asks whether to change it for all that share it, or to copy it for these alone. `what`: "oak.png".
+// Calls `then` with the material to change for these objects: immediately if no others share it; else
+// asks whether to change it for all that share it, or to copy it for these only. `what`: "oak.png".
 struct MaterialScope {
     bool alone = false; // a copy for these objects
     std::vector<InstanceId> objects;
@@ -29,7 +29,7 @@ struct MaterialScope {
 void ask_scope(SelectContext& editor, const std::vector<InstanceId>& objects, const std::string& what,
                std::function<void(SelectContext&, const MaterialScope&)> then);
 
-// `build` makes an edit of the material of `scope`, on a scene in which it was made unique if the user wants that.
+// `build` returns an edit of the material of `scope`, for a scene in which it was made unique if the user chose that.
 Result<scene::Edit> edit_in_scope(
     const scene::Scene& scene, const MaterialScope& scope,
     const std::function<Result<scene::Edit>(const scene::Scene&, scene::Id<scene::Material>)>& build);

@@ -117,7 +117,7 @@ void Editor::frame(const std::vector<int>* keys) {
     draw_panels();
     files_->jobs.update(*this);
     draw_modals();
-    // A gesture ends when nothing is held any more, and the sky of its last step is there.
+    // A gesture ends when nothing is held any more and the sky of its last step is complete.
     if (!panel_state->skies.wanted() && !ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
         !ImGui::IsMouseDown(ImGuiMouseButton_Right) && !ImGui::IsMouseDown(ImGuiMouseButton_Middle))
         end_gesture_ = true;
@@ -179,13 +179,13 @@ void Editor::follow_plugins() {
     constexpr double every = 0.4; // [s]
     if (ImGui::GetTime() < plugins_looked_at_ + every) return;
     plugins_looked_at_ = ImGui::GetTime();
-    for (const plugin::Reload& news : registry_.reload_changed()) // failures are in the log, which shows here too
+    for (const plugin::Reload& news : registry_.reload_changed()) // failures are logged, and so shown here too
         if (news.error.empty()) notices.add(LogLevel::info, news.plugin->name() + " was reloaded");
 }
 
 namespace {
 
-// Without this, names in scripts that no font covers would be boxes without explanation.
+// Explains why names in scripts that no font covers are shown as boxes.
 std::string unreadable_scripts(const scene::Scene& s) {
     ImFont* font = ImGui::GetFont();
     std::set<std::string> found;
@@ -294,13 +294,14 @@ void Editor::refresh_picture() {
     asked_ = wanted;
     scene::Scene shown = scene();
     if (wanted.original) {
-        // The camera stays where it is now, so that the two can be compared.
+        // The camera stays where it is, so that the two can be compared.
         shown = *original_;
         shown.cameras = scene().cameras;
         shown.active_camera = scene().active_camera;
         shown.film = scene().film;
     }
-    if (const auto id = shown.active_camera.value; views.now() && shown.cameras.find(id)) // versions no edit reaches
+    if (const auto id = shown.active_camera.value;
+        views.now() && shown.cameras.find(id)) // versions that no edit can have
         shown.cameras.set(id, camera(), (std::uint64_t(1) << 48) + views.version());
     const std::uint64_t request = live_->show(std::move(shown), {.size = wanted.size,
                                                                  .document = document_,
@@ -378,7 +379,7 @@ void Editor::draw_menu() {
     }
     // Activity, at the right end.
     const view::ViewStatus status = live_->status();
-    const bool waits = scene().instances.live() > 0; // for a picture
+    const bool waits = scene().instances.live() > 0; // waiting for a picture
     const std::string state = status.state == view::ViewState::starting    ? waits ? "starting the renderer" : ""
                               : status.state == view::ViewState::preparing ? waits ? "preparing" : ""
                               : status.state == view::ViewState::failed    ? "cannot render"
@@ -397,7 +398,7 @@ void Editor::draw_panels() {
     draw_menu();
     const ImGuiViewport* main = ImGui::GetMainViewport();
     const ImGuiID space = ImGui::GetID("dockspace");
-    if (!view.show_panels) { // the picture alone
+    if (!view.show_panels) { // only the picture
         ImGui::SetNextWindowPos(main->WorkPos);
         ImGui::SetNextWindowSize(main->WorkSize);
         ImGui::DockSpaceOverViewport(space, main, ImGuiDockNodeFlags_KeepAliveOnly);

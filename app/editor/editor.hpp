@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor: the desktop program without its window: a Session, the live picture of it, and what the user sees of both.
-// What panels and actions see of it is PanelContext; their requests are carried out in one place, apply_pending().
-// Everything here is [main] and inside a Dear ImGui frame unless it says otherwise.
+// Editor: the desktop program without its window: a Session, its live picture, and their user interface. Panels and
+// actions access it through PanelContext; their requests are carried out in one place, apply_pending(). Everything here
+// is [main] and inside a Dear ImGui frame unless stated otherwise.
 #pragma once
 
 #include "opening.hpp"
@@ -36,12 +36,12 @@ class Editor final : public PanelContext {
     void insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point = {}) override;
     void configure_renderer(const render::RendererOptions& renderer) override;
     ActionState action_state(std::string_view action) const override;
-    void open_now(Opening::Request request) { opening_->start(std::move(request)); } // asks nothing
-    void adopt_scene(scene::Scene scene); // one made in the program becomes the document
+    void open_now(Opening::Request request) { opening_->start(std::move(request)); } // without asking
+    void adopt_scene(scene::Scene scene); // a scene created in the program becomes the document
     document::Session& session_for_changes() { return *session_; } // only inside later() and actions
     void undo();
     void redo();
-    void reset_layout(); // panels are open, and where they are, as at the first start
+    void reset_layout(); // panels are open and placed as at the first start
 
     const Marks::Mark* find_mark(std::string_view name) const { return marks_.find(name); }
     // State and marks as JSON, for tests.
@@ -58,14 +58,14 @@ class Editor final : public PanelContext {
     void place_inserted(const io::ImportedScene& imported);
     void ask_for_base(const std::string& message, bool some_fits);
     void refresh_picture();
-    void follow_camera(); // the view returns to the scene's camera when that was moved
+    void follow_camera(); // the view returns to the scene's camera if that was moved
     void remember_preferences(); // when they changed
 
     Preferences remembered_;
     double plugins_looked_at_ = 0; // [s], as ImGui::GetTime
     std::optional<glm::dmat4> camera_place_; // of the scene's camera as last seen by the view
     bool quit_ = false, reset_layout_ = false;
-    struct Shown { // what the live picture was last asked for
+    struct Shown { // the last request to the live picture
         scene::Version version = 0;
         std::uint64_t plugins = 0; // plugin::Registry::version
         std::uint64_t view = 0; // ViewHistory::version
@@ -79,10 +79,10 @@ class Editor final : public PanelContext {
     } asked_;
     struct Latency { // the latest of each [ms]
         std::map<std::uint64_t, double> asked; // live picture request -> its time
-        std::uint64_t count = 0; // of `pixels`, with those that were dropped
-        std::deque<double> pixels; // from the begin of the frame that asked, to the picture of it on the screen
+        std::uint64_t count = 0; // of `pixels`, including dropped ones
+        std::deque<double> pixels; // from the start of the requesting frame until its picture is on the screen
         std::deque<double> frames; // of the window
-        double shown_asked = 0; // when what is shown was asked for [s]
+        double shown_asked = 0; // when the shown picture was requested [s]
         std::uint64_t clean_request =
             0; // the latest request with a denoised picture shown, at half resolution or finer,
         double clean_seconds = 0; // and how long after the request

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EditorOptions: what the program gives the editor at its start.
+// EditorOptions: options of the editor at its start.
 #pragma once
 
 #include "render/renderer_options.hpp"
@@ -16,10 +16,10 @@ namespace restage::editor {
 
 struct EditorOptions {
     render::RendererOptions renderer;
-    std::function<void()> wake; // [any] asks for another frame
+    std::function<void()> wake; // [any] requests another frame
     std::filesystem::path config_dir; // layout, preferences; "" = nothing is remembered
     double autosave_seconds = 60; // interval between recovery copies of unsaved work
-    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a process of their own
+    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a separate process
 };
 
 } // namespace restage::editor

@@ -22,13 +22,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// --- file system queries, each on a thread of its own
+// --- file system queries, each on its own thread
 // -----------------------------------------------------------
 
 template <class T>
 struct Asked {
     std::atomic<bool> done = false;
-    T answer; // once done
+    T answer; // set when done
 };
 
 template <class T, class F>
@@ -120,8 +120,8 @@ class Browser {
   private:
     void go(const fs::path& folder, const std::string& make = {});
     void accept(const fs::path& path);
-    bool act(PanelContext& e); // on the answer to accept(); true = chosen
-    std::string select(int step); // the name of what is selected then
+    bool act(PanelContext& e); // with the result of accept(); true = chosen
+    std::string select(int step); // the name selected then
     void update_shown();
     bool fits(const FileEntry& entry) const;
     void draw_places(PanelContext& e, float height);
@@ -144,7 +144,7 @@ class Browser {
     int selected_ = -1;
     bool scroll_ = false;
     std::string typed_, folder_text_, new_folder_, problem_;
-    bool use_folder_ = false; // accept() is final when it is a folder
+    bool use_folder_ = false; // accept() is final if it is a folder
     bool naming_folder_ = false, focus_folder_ = false, focus_name_ = true;
     bool list_open_ = false; // see dialog_escape
     std::unique_ptr<KeyNavigation> navigation_; // once the details have the keyboard
@@ -165,7 +165,7 @@ void Browser::go(const fs::path& folder, const std::string& make) {
     shown_.clear();
     selected_ = -1;
     problem_.clear();
-    ImGui::ClearActiveID(); // a field that is being typed in keeps its text
+    ImGui::ClearActiveID(); // a field keeps its text while it is edited
     if (!options_.save) typed_.clear();
     focus_name_ = true;
 }
@@ -250,7 +250,7 @@ bool Browser::act(PanelContext& e) {
     if (options_.save) {
         if (!asked_path_.has_extension() && !options_.extension.empty()) {
             asked_path_ += options_.extension;
-            accept(asked_path_); // does that one exist?
+            accept(asked_path_); // whether that one exists
             return false;
         }
         if (kind == Kind::file && replace_ != asked_path_) {
@@ -371,7 +371,7 @@ void Browser::draw_name(PanelContext& e) {
                                  ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
                                      ImGuiInputTextFlags_CallbackHistory,
                                  on_key, this))
-        accept(typed_); // the field regains the keyboard once the answer is in
+        accept(typed_); // the field regains the keyboard when the result arrives
     e.mark("browser.name");
     if (options_.filters.empty()) return;
     ImGui::SameLine();
@@ -429,7 +429,7 @@ bool Browser::draw_buttons(PanelContext& e) {
         } else {
             ImGui::SetNextItemWidth(160 * ImGui::GetStyle().FontScaleMain);
             if (std::exchange(focus_folder_, false)) ImGui::SetKeyboardFocusHere();
-            if (ImGui::InputTextWithHint("##new folder", "Its name, then Enter", &new_folder_,
+            if (ImGui::InputTextWithHint("##new folder", "Type its name, then press Enter", &new_folder_,
                                          ImGuiInputTextFlags_EnterReturnsTrue) &&
                 !new_folder_.empty()) {
                 go(folder_, new_folder_);
@@ -457,7 +457,7 @@ bool Browser::draw(PanelContext& e) {
 
     if (ImGui::Button("Up")) go(folder_.parent_path());
     e.mark("browser.up");
-    ImGui::SetItemTooltip("The folder around this one (Alt+Up)");
+    ImGui::SetItemTooltip("The parent folder (Alt+Up)");
     if (ImGui::IsKeyChordPressed(ImGuiMod_Alt | ImGuiKey_UpArrow)) go(folder_.parent_path());
     ImGui::SameLine();
     ImGui::SetNextItemWidth(size.x - ImGui::GetCursorPosX());

@@ -22,14 +22,14 @@ struct FileFilter {
 
 struct BrowseOptions {
     std::string title; // "Open a scene"
-    bool save = false; // a new name may be typed, folders made, and replacing asks
-    bool folder = false; // a folder is wanted: files are not listed
+    bool save = false; // a new name may be typed, folders created, and replacing a file asks
+    bool folder = false; // chooses a folder: files are not listed
     std::vector<FileFilter> filters;
     std::filesystem::path start; // a folder; "" = the last used one
-    std::string name;            // at first in the field
-    std::string extension;       // appended to a name without one, when saving: ".restage"
+    std::string name;            // initial text of the field
+    std::string extension;       // appended to a name without one on saving: ".restage"
     std::function<void(PanelContext&, const std::filesystem::path&)> done;
-    // Drawn beneath the name, for the file that is chosen ("" = none). `focus`: it should take the keyboard (Alt+O).
+    // Drawn below the name, for the chosen file ("" = none). `focus`: it should take the keyboard (Alt+O).
     std::function<void(PanelContext&, const std::filesystem::path&, bool focus)> details = {};
 };
 

@@ -42,7 +42,7 @@ struct Files {
     document::Autosave autosave;
     std::string autosave_problem; // that was logged
     BackgroundJobs jobs;
-    std::filesystem::path last_picture; // where one was written last
+    std::filesystem::path last_picture; // where the last one was written
 };
 
 } // namespace restage::editor

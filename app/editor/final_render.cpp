@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Final pictures: the scene at its film's full size, by a renderer of its own in the background.
+// Final pictures: the scene at its film's full size, by a separate renderer in the background.
 #include "base/version.hpp"
 #include "document/session.hpp"
 #include "file_browser.hpp"
@@ -26,8 +26,8 @@ namespace {
 
 struct Wish {
     std::uint32_t samples = 64;
-    float error = 0; // > 0: stop there, at `samples` at the latest
-    bool from_view = true; // instead of the scene's camera, where they differ
+    float error = 0; // > 0: stop at this error, or at `samples`
+    bool from_view = true; // instead of the scene's camera, if they differ
     bool denoise = true;
     std::string denoiser; // as in Preferences
     fs::path path;
@@ -91,7 +91,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
             renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }),
             scene, revived));
         double done = double(renderer->samples()) / wish.samples;
-        std::string stage = fmt::format("{} of {} samples a pixel", renderer->samples(), wish.samples);
+        std::string stage = fmt::format("{} of {} samples per pixel", renderer->samples(), wish.samples);
         if (wish.error > 0 && renderer->samples() >= 8) {
             const double error = renderer->relative_error();
             stage += fmt::format(", {:.2f} % error", error * 100);
@@ -121,10 +121,10 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
             return {};
         };
         const auto cleaned = clean();
-        if (!cleaned) { // what was rendered is worth keeping all the same
+        if (!cleaned) { // the rendered part is kept nevertheless
             denoiser = "none";
             if (cleaned.error().cancelled())
-                finished->text = "denoising was cancelled: written as it was rendered; ";
+                finished->text = "denoising was cancelled: written without it; ";
             else
                 log.error("the final picture is not denoised: " + cleaned.error().message);
         }
@@ -139,8 +139,8 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
                                   {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
                                   {"restage:denoiser", denoiser}}};
     for (const auto& [type, count] : stats.not_finite)
-        log.warning(fmt::format("{} samples of material type \"{}\" were not finite and were left out", count, type));
-    finished->text += fmt::format("{}x{}, {} samples a pixel in {:.1f} s", picture.film.width, picture.film.height,
+        log.warning(fmt::format("{} samples of material type \"{}\" were non-finite and were omitted", count, type));
+    finished->text += fmt::format("{}x{}, {} samples per pixel in {:.1f} s", picture.film.width, picture.film.height,
                                   renderer->samples(), now_seconds() - start);
     return write(finished, wish.path);
 }
@@ -173,7 +173,7 @@ void final_render_dialog(PanelContext& e) {
         form_row("Size", "The picture's size: change it in the Scene panel, under Picture");
         ImGui::Text("%u × %u pixels", film.width, film.height);
         if (editor.views.now()) {
-            form_row("From", "The viewpoint: the current view, or the scene's camera, which the view has left");
+            form_row("From", "The viewpoint: the current view, or the scene's camera");
             if (ImGui::RadioButton("View", wish->from_view)) wish->from_view = true;
             editor.mark("final.view");
             ImGui::SameLine();
@@ -181,7 +181,7 @@ void final_render_dialog(PanelContext& e) {
             editor.mark("final.camera");
         }
         int samples = int(wish->samples);
-        form_row("Samples", "Light paths for each pixel: twice as many take twice the time and leave 0.7 of the noise");
+        form_row("Samples", "Light paths per pixel: twice as many take twice the time and leave 0.7 of the noise");
         if (ImGui::DragInt("##samples", &samples, 1, 1, 1 << 20, "%d a pixel", ImGuiSliderFlags_AlwaysClamp))
             wish->samples = std::uint32_t(samples);
         editor.mark("final.samples");
@@ -190,13 +190,12 @@ void final_render_dialog(PanelContext& e) {
         if (ImGui::DragFloat("##error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "No target"))
             wish->error = percent / 100;
         editor.mark("final.error");
-        form_row("Denoise",
-                 "Removes the remaining noise, in high quality; the raw picture is kept beside it in an EXR");
+        form_row("Denoise", "Removes the remaining noise, in high quality; in an EXR the raw picture is kept as well");
         ImGui::BeginDisabled(editor.registry().denoisers().empty());
         ImGui::Checkbox("##denoise", &wish->denoise);
         editor.mark("final.denoise");
         ImGui::EndDisabled();
-        empty_note("It renders in the background, and you can go on editing; the live picture waits meanwhile.");
+        empty_note("It renders in the background while you continue editing; the live picture is paused meanwhile.");
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Choose where...")) {

@@ -29,7 +29,7 @@ constexpr auto scripts = std::to_array<Script>({
 constexpr std::size_t most_files = 20000; // of all folders
 constexpr int most_faces = 16;
 
-// Big-endian numbers of an OpenType file (ISO/IEC 14496-22), each read in place: CJK fonts are 20 MB.
+// Big-endian numbers of an OpenType file (ISO/IEC 14496-22), read in place: CJK fonts are 20 MB.
 class FontFile {
   public:
     explicit FontFile(const fs::path& file) : in_(file, std::ios::binary) {}
@@ -81,7 +81,7 @@ class FontFile {
     bool in_segments(std::uint64_t table, char32_t c) { // format 4
         if (c > 0xffff) return false;
         const std::uint64_t twice = u16(table + 6);
-        std::uint64_t low = 0, high = twice / 2; // the first segment that ends at or behind c
+        std::uint64_t low = 0, high = twice / 2; // the first segment that ends at or after c
         while (low < high) {
             const std::uint64_t middle = (low + high) / 2;
             if (u16(table + 14 + 2 * middle) < c)
@@ -172,7 +172,7 @@ FallbackFonts find_fallback_fonts(std::span<const fs::path> folders) {
         for (fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, code), end;
              !code && it != end && files.size() < most_files; it.increment(code)) {
             const std::string extension = it->path().extension().string();
-            std::error_code none; // reading a FIFO called .ttf would block for ever
+            std::error_code none; // reading a FIFO called .ttf would block forever
             if ((extension == ".ttf" || extension == ".ttc" || extension == ".otf") && it->is_regular_file(none))
                 files.push_back(it->path());
         }

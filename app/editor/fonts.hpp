@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fonts of the system for the names that the UI's own font has no glyphs for: Chinese, Japanese, Korean and others.
+// System fonts for names that the UI's own font cannot show: Chinese, Japanese, Korean and others.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace restage::editor {
 
 struct Script {
     const char* name; // "Japanese"
-    char32_t sample; // a character that any font for it has
+    char32_t sample; // a character that every font for it has
     char32_t first, last; // its code point ranges
 };
 std::span<const Script> known_scripts();
@@ -27,9 +27,9 @@ struct FallbackFont {
 };
 struct FallbackFonts {
     std::vector<FallbackFont> fonts; // in lookup order
-    std::vector<std::string> missing; // scripts that none of them covers
+    std::vector<std::string> missing; // scripts without a font
 };
-// As few fonts as cover every script that any font covers. Reads no more than the character maps.
+// A minimal set of fonts that covers every script that any font covers. Reads only the character maps.
 FallbackFonts find_fallback_fonts(std::span<const std::filesystem::path> folders);
 
 // Whether that face of the file has a glyph for the character (its table "cmap", formats 4 and 12).

@@ -19,7 +19,7 @@ namespace restage::editor {
 namespace {
 
 constexpr float knob_pixels = 10; // half of its side, as ImGuizmo draws it
-constexpr float handle_pixels = 90; // of one across the view; handles towards the viewer are shorter
+constexpr float handle_pixels = 90; // of a handle perpendicular to the view; handles towards the viewer are shorter
 
 glm::dmat3 rotation_of(const glm::dmat4& m) {
     glm::dmat3 r(m);
@@ -40,13 +40,13 @@ DragPath::Mouse mouse_of(const PanelContext& e) {
 } // namespace
 
 void release_gizmo() {
-    ImGuizmo::Enable(false); // the only way to make it forget a drag
+    ImGuizmo::Enable(false); // the only way to cancel its drag
     ImGuizmo::Enable(true);
 }
 
 GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     Drag& drag = e.viewport.gizmo_drag;
-    // Handles are straight; the view of a spherical camera is not. The camera's panel says so.
+    // Handles are straight, but the view of a spherical camera is not. The camera's panel explains this.
     if (e.selection.empty() || e.view.gizmo == GizmoMode::select || scene::is_spherical(e.camera())) {
         drag = {};
         return {};
@@ -61,7 +61,8 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
         const glm::dmat4* own = light    ? &light->light_to_world
                                 : single ? &s.instances[active].object_to_world
                                          : nullptr;
-        // Scaling along world axes would shear a turned object, so one object is always scaled along its own.
+        // Scaling along world axes would shear a rotated object, so a single object is always scaled along its own
+        // axes.
         const bool local = own && (e.view.local_axes || e.view.gizmo == GizmoMode::scale);
         drag.frame = glm::dmat4(local ? rotation_of(*own) : glm::dmat3(1));
         drag.frame[3] = glm::dvec4(0, 0, 0, 1);
@@ -97,9 +98,9 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
                        : e.view.gizmo == GizmoMode::rotate ? e.view.snap_angle
                                                            : e.view.snap_scale;
     const float snap[3] = {step, step, step};
-    // ImGuizmo's knob in the middle moves in the screen plane, leaving things in the air: there, as on the
-    // object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo ignores clicks while an item
-    // is under the mouse, so the knob is an item.
+    // ImGuizmo's knob in the middle would move things in the screen plane, off the floor: instead, as for drags of
+    // the object itself, the viewport slides them over the floor (viewport_drag.cpp). ImGuizmo ignores clicks while an
+    // item is under the mouse, so the knob is an item.
     const glm::dvec3 middle = query::project(camera, drag.pivot, e.film_aspect());
     const ImVec2 knob(corner.x + float(middle.x) * size.x, corner.y + float(middle.y) * size.y);
     GizmoState state;
@@ -113,8 +114,8 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
         ImGuizmo::Manipulate(glm::value_ptr(view), glm::value_ptr(projection), operation, ImGuizmo::LOCAL,
                              glm::value_ptr(drag.current), nullptr, io.KeyCtrl ? snap : nullptr);
 
-    // A point on each handle, near its tip, for tests. Handles are as long in the world as makes one across the view
-    // that long on the screen.
+    // A point on each handle, near its tip, for tests. A handle's length in the world is such that one perpendicular
+    // to the view has the standard length on screen.
     const glm::dvec3 across =
         query::project(camera, drag.pivot + glm::normalize(glm::dvec3(camera.camera_to_world[0])), e.film_aspect());
     const double length = handle_size / 2 / std::max(std::abs(across.x - middle.x), 1e-9);

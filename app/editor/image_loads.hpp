@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ImageLoads: image files are read on a thread of its own, one after the other; their callbacks run on the main
+// ImageLoads: reads image files on its own thread, one after the other; callbacks run on the main
 // thread, in poll().
 #pragma once
 

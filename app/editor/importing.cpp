@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// By its extension: to ask importers would read the file, perhaps from a slow disk.
+// By its extension: probing would read the file, perhaps from a slow disk.
 std::optional<plugin::ImporterEntry> importer_with_options(const plugin::Registry& registry, const fs::path& file) {
     std::string name = file.filename().string();
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -40,7 +40,7 @@ std::optional<plugin::ImporterEntry> importer_of_document(const DocumentContext&
     return entry && !entry->table->options.empty() ? entry : std::nullopt;
 }
 
-// A row for each option; true = one was changed. Values that the table no longer takes are shown as its default.
+// A row for each option; true = one was changed. Values that are no longer valid are shown as the default.
 bool option_rows(EditContext& e, const model::Importer& importer, scene::ParamSet& values, bool focus) {
     bool changed = false;
     for (const model::Param& line : importer.options) {
@@ -75,7 +75,7 @@ void import_options_part(EditContext& e, const fs::path& file, bool focus) {
     if (!entry) return;
     const model::Importer& importer = *entry->table;
     ImportState& state = e.panel_state->importing;
-    if (state.file != file.filename()) { // a text, such as the name of a scene, is about one file
+    if (state.file != file.filename()) { // a text, such as the name of a scene, is specific to one file
         state.file = file.filename();
         for (const model::Param& line : importer.options)
             if (line.type == model::ParamType::text) state.options[importer.format].remove(line.id);
@@ -83,7 +83,7 @@ void import_options_part(EditContext& e, const fs::path& file, bool focus) {
     scene::ParamSet& values = state.options[importer.format];
     if (focus) ImGui::SetNextItemOpen(true);
     const bool open = section_header("Options (Alt+O)", !fitting(importer, values).entries().empty());
-    tip(fmt::format("How {} is read", importer.label).c_str());
+    tip(fmt::format("Options for reading {}", importer.label).c_str());
     e.mark("browser.options");
     if (open) option_rows(e, importer, values, focus);
 }
@@ -121,7 +121,7 @@ void import_again(Editor& e) {
         if (!entry) return false; // it was unloaded
         dialog_width(400);
         ImGui::TextWrapped("%s", fs::path(context.session().base().file).filename().string().c_str());
-        empty_note("It is read again, and the document opened anew: its history begins again.");
+        empty_note("The file is reread and the document reopened: its history starts again.");
         ImGui::Spacing();
         option_rows(context, *entry->table, state->values, ImGui::IsWindowAppearing());
         ImGui::Spacing();
@@ -137,7 +137,7 @@ void import_again(Editor& e) {
                 });
             });
         }
-        tip("A project keeps its changes as far as they fit the scene");
+        tip("A project keeps the changes that still apply to the scene");
         context.mark("import.again");
         ImGui::SameLine();
         if (ImGui::Button("Cancel") || dialog_escape(state->list_open)) stay = false;

@@ -44,7 +44,7 @@ void keep_picture_large(ImGuiID space, ImVec2 size) {
     const ImVec2 least(std::min(0.45f * size.x, 640 * scale), std::min(0.45f * size.y, 400 * scale));
     constexpr float narrow = 90; // of a shrunk panel [at scale 1]
     for (const int axis : {0, 1}) {
-        // How much of the window the nodes beside the picture take, from the picture outwards.
+        // The width of the docked nodes next to the picture, from the picture outwards.
         float taken = 0;
         for (const ImGuiDockNode* node = center; node->ParentNode; node = node->ParentNode) {
             const ImGuiDockNode* parent = node->ParentNode;

@@ -8,8 +8,8 @@ namespace restage::editor {
 
 namespace {
 
-// Dear ImGui settles a window's size and place in its first frames: until then its contents are not where a click
-// would land.
+// Dear ImGui settles a window's size and place in its first frames: until then positions of its contents are not
+// valid for clicks.
 bool settled(const ImGuiWindow* window) {
     for (; window; window = window->ParentWindow)
         if (window->Appearing || window->Hidden || window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0)

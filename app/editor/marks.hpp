@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks: names of what the last frame drew, for tests that drive the program from outside.
+// Marks: names of things drawn in the last frame, for tests that control the program from outside.
 #pragma once
 
 #include <map>
@@ -16,8 +16,8 @@ class Marks {
         float x0 = 0, y0 = 0, x1 = 0, y1 = 0; // its rectangle in the window
         unsigned item = 0; // ImGuiID; 0 = none
     };
-    void clear() { marks_.clear(); } // a frame begins
-    // The last item, a rectangle, the tab of the current window. Nothing while the window has no settled place yet.
+    void clear() { marks_.clear(); } // at the start of a frame
+    // The last item, a rectangle, the tab of the current window. Ignored until the window has settled.
     void item(const std::string& name);
     void area(const std::string& name, const ImVec2& lower, const ImVec2& upper);
     void tab(const std::string& name);

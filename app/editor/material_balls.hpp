@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MaterialBalls: a path-traced ball of each material that a list shows, in a neutral studio, rendered on first use
-// by a renderer of its own on a thread of lower priority.
+// MaterialBalls: a path-traced ball for each listed material, in a neutral studio, rendered on first use
+// by a separate renderer on a low-priority thread.
 #pragma once
 
 #include "base/log.hpp"
@@ -42,7 +42,7 @@ class MaterialBalls {
     void forget(); // [main] of another document
 
   private:
-    struct Made { // what a ball shows
+    struct Made { // what determines a ball
         std::uint64_t document = 0;
         scene::Version materials = 0, textures = 0, images = 0;
         std::uint64_t plugins = 0;
@@ -75,7 +75,7 @@ class MaterialBalls {
     std::thread thread_;
 };
 
-// A ball of that material in a neutral studio, and nothing else of the scene. [any]
+// A ball of that material in a neutral studio, without the rest of the scene. [any]
 scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id);
 
 } // namespace restage::editor

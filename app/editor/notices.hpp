@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notices: short messages over the viewport that fade, and the log they stay in.
+// Notices: short messages that fade over the viewport, and the log that keeps them.
 #pragma once
 
 #include "base/log.hpp"
@@ -20,7 +20,7 @@ class Notices {
   public:
     // [any]
     void add(LogLevel level, std::string text);
-    // [main] Draws what is still fresh in the lower right corner of the rectangle.
+    // [main] Draws recent messages in the lower right corner of the rectangle.
     void draw(float right, float bottom);
     bool fading() const; // something is on screen
     std::deque<LogLine> lines() const; // a copy, oldest first, at most 2000

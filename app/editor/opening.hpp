@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening: a scene or project file is read on a thread of its own while the editor runs, with progress and cancel.
+// Opening: reads a scene or project file on its own thread while the editor runs, with progress and cancellation.
 #pragma once
 
 #include "document/document.hpp"
@@ -19,13 +19,17 @@ namespace restage::editor {
 
 class Opening {
   public:
-    enum class Purpose { replace, insert, recover }; // becomes the document, joins it, becomes an unsaved document
+    enum class Purpose {
+        replace,
+        insert,
+        recover
+    }; // becomes the document; is inserted into it; becomes an unsaved document
     struct Request {
         std::filesystem::path path;
         Purpose purpose = Purpose::replace;
         std::filesystem::path base = {}; // of a project: instead of the one it names
         bool drop_lost = false;          // see document::ReadOptions
-        std::optional<glm::dvec2> film_point = {}; // insert: where on the picture it is to stand
+        std::optional<glm::dvec2> film_point = {}; // insert: its position in the picture
         std::optional<scene::ParamSet> import_options = {}; // see document::ReadOptions
     };
     struct Opened {
@@ -46,7 +50,7 @@ class Opening {
     std::string stage() const;
     const Request& request() const { return request_; }
     const std::filesystem::path& path() const { return request_.path; }
-    // The result, once; nothing while it runs or after it was cancelled.
+    // The result, once; nullopt while it runs and after it was cancelled.
     std::optional<Result<Opened>> take();
     document::BaseProblem problem() const { return problem_; } // if take() returned an error
 

@@ -73,7 +73,7 @@ double DocumentContext::film_aspect() const {
 
 std::shared_ptr<const view::Frame> PanelContext::shown_frame() const {
     auto frame = live_->best(view.denoise && view.display.layer == view::picture_layer);
-    return frame && frame->document == document_ ? frame : nullptr; // another scene has been opened in this very frame
+    return frame && frame->document == document_ ? frame : nullptr; // another scene was opened in this frame
 }
 
 void EditContext::edit(Builder builder, std::string gesture) {

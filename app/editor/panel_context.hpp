@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PanelContext: all that code below Editor sees of it: the levels of contexts.hpp and the picture.
+// PanelContext: the complete interface for code below Editor: the levels of contexts.hpp and the picture.
 #pragma once
 
 #include "contexts.hpp"
@@ -36,7 +36,7 @@ class PictureView {
     view::LiveView& live() { return *live_; }
     const view::LiveView& live() const { return *live_; }
     void set_picture_size(glm::uvec2 size) { picture_size_ = size; } // by the viewport
-    // Another device, tracer, number of threads.
+    // Sets another device, tracer, or number of threads.
     virtual void configure_renderer(const render::RendererOptions& renderer) = 0;
 
   protected:
@@ -49,10 +49,10 @@ class PictureView {
 
 class PanelContext : public SelectContext, public PictureView {
   public:
-    InstanceId drop_target; // of what is dragged: outlined alone, in the next frame
+    InstanceId drop_target; // of the current drag: the only outline in the next frame
     InstanceId drop_target_before;
     std::shared_ptr<const view::Frame> shown_frame() const;
-    // Looks from there. If the camera is locked only the view moves, which does not change the document; else the
+    // Sets the viewpoint. If the camera is locked only the view moves, which does not change the document; else the
     // camera moves.
     void look_from(const glm::dmat4& camera_to_world, const std::string& gesture = {},
                    const char* label = "Move camera");

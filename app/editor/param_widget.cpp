@@ -23,7 +23,7 @@ namespace restage::editor {
 
 namespace {
 
-constexpr float slider_span = 20; // the largest range a slider is of use for; beyond it a drag is better
+constexpr float slider_span = 20; // the largest range for which a slider is useful; a drag is better beyond
 
 bool number(const model::Param& line, float& v) {
     const std::string unit = line.unit == "deg" ? "°" : line.unit.empty() ? "" : " " + line.unit;
@@ -82,7 +82,7 @@ bool material_combo(EditContext& e, scene::Value& v, const std::string& mark) {
     return changed;
 }
 
-// The types that plugins bring, by name.
+// The types of all plugins, by name.
 void new_texture_menu(EditContext& e, ParamAsk& ask, const std::string& mark) {
     const bool open = ImGui::BeginMenu("New texture");
     e.mark(mark);
@@ -96,7 +96,7 @@ void new_texture_menu(EditContext& e, ParamAsk& ask, const std::string& mark) {
     ImGui::EndMenu();
 }
 
-// Everything a slot can hold: the scene's textures, a new one, a file, nothing.
+// The choices for a slot: the scene's textures, a new one, a file, none.
 void texture_popup(EditContext& e, const scene::Value& value, bool scalar, const SlotRules* rules, ParamAsk& ask,
                    const std::string& mark) {
     if (!ImGui::BeginPopup("texture")) return;
@@ -143,7 +143,7 @@ std::optional<std::string> dropped_path() {
     return path;
 }
 
-// The name of a table's file, a drop target and file chooser. Beneath it, what is wrong with it.
+// The name of a table's file, a drop target and file chooser. Below it, its error if there is one.
 bool table_field(EditContext& e, const model::Param& line, scene::Value& v, const plugin::TableReader* reader,
                  const std::string& mark) {
     const std::filesystem::path path(v.text);
@@ -171,7 +171,7 @@ bool table_field(EditContext& e, const model::Param& line, scene::Value& v, cons
                        editor.panel_state->image_choice = {mark, file.string()};
                    }});
     }
-    tip("Choose a file; or drop one on its name");
+    tip("Choose a file, or drop one on its name");
     if (const std::string file = chosen_image_file(e, mark); !file.empty()) chosen = file;
     if (!chosen) return false;
     v.text = std::filesystem::absolute(*chosen).lexically_normal().string();
@@ -231,7 +231,7 @@ ParamAsk param_widget(EditContext& e, const model::Param& line, const scene::Val
         const std::string name = texture ? texture->name : "None";
         if (ImGui::Button((name + "###value").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("texture");
         tip(texture ? "A texture replaces this value: click to choose another, or none"
-                    : "Click to choose a texture; or drop an image here");
+                    : "Click to choose a texture, or drop an image here");
         accept_image(ask);
     } else {
         switch (line.type) {
@@ -278,7 +278,7 @@ ParamAsk param_widget(EditContext& e, const model::Param& line, const scene::Val
     }
     if (slot && line.type != model::ParamType::texture) {
         ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-        if (icon_button("slot", Icon::texture, textured, "Let a texture vary this value; or drop an image here"))
+        if (icon_button("slot", Icon::texture, textured, "Vary this value by a texture, or drop an image here"))
             ImGui::OpenPopup("texture");
         e.mark(mark + ".texture");
         accept_image(ask);
@@ -290,7 +290,7 @@ ParamAsk param_widget(EditContext& e, const model::Param& line, const scene::Val
     if (changed) ask.value = v;
     if (line.type == model::ParamType::table && reader)
         if (const std::string problem = reader->problem(line.id, value.text); !problem.empty()) {
-            error_note((problem + ". It shows as grey.").c_str());
+            error_note((problem + ". It is shown as grey.").c_str());
             e.mark(mark + ".problem");
         }
     if (textured && rules) texture_settings(e, value.texture, mark + ".of");

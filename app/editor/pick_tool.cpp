@@ -58,15 +58,15 @@ PickTool material_eyedropper(const SelectContext& editor) {
 
 PickTool focus_picker() {
     return {
-        "Click what should be sharp", [](PanelContext& e, InstanceId, ImVec2 screen) {
-                // The distance along the camera's axis: what pbrt calls focal distance.
+        "Click the object that should be sharp", [](PanelContext& e, InstanceId, ImVec2 screen) {
+                // The distance along the camera's axis: pbrt's focal distance.
             const query::ViewRay ray = query::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
             const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
             if (hits.empty()) {
                 e.notices.add(LogLevel::info, "There is nothing to focus on");
                 return;
             }
-            const glm::dmat4& place = e.scene_camera().camera_to_world; // the view may have left it
+            const glm::dmat4& place = e.scene_camera().camera_to_world; // the view may differ from it
             const double away = glm::dot(hits[0].position - glm::dvec3(place[3]), glm::normalize(glm::dvec3(place[2])));
             if (!(away > 0)) {
                 e.notices.add(LogLevel::info, "That is behind the scene's camera: set the camera to this view first");

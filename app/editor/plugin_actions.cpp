@@ -23,7 +23,7 @@ void tell(SelectContext& e, const std::string& label, const io::Report& report) 
     }
 }
 
-// [main] The document may have changed since, or be another one.
+// [main] The document may have changed meanwhile, or be a different one.
 void take(SelectContext& e, std::uint64_t document, io::ActionResult result) {
     if (e.document() != document) {
         e.notices.add(LogLevel::info, result.edit.label + ": its document is no longer open");
@@ -78,7 +78,7 @@ void ask_for_action(SelectContext& e, const plugin::ActionEntry& entry) {
         dialog_width(400);
         ImGui::TextWrapped("%s", action.tooltip.c_str());
         ImGui::Spacing();
-        scene::ParamSet fitting; // of a version before there may be others
+        scene::ParamSet fitting; // may have other values of an earlier version
         const auto row = [&](const model::Param& line) {
             const scene::Value* set = values.find(line.id);
             if (set && !misfit(line, *set).empty()) set = nullptr;
@@ -88,7 +88,7 @@ void ask_for_action(SelectContext& e, const plugin::ActionEntry& entry) {
             if (ask.reset) fitting.remove(line.id);
             if (ask.value) fitting.set(line.id, *ask.value);
         };
-        // Where the window is small the rows scroll, and the buttons stay in sight.
+        // In a small window the rows scroll, and the buttons stay visible.
         const float line_height = ImGui::GetFrameHeightWithSpacing();
         const float above = ImGui::GetCursorScreenPos().y - ImGui::GetWindowPos().y;
         const float room =
@@ -126,7 +126,7 @@ void ask_for_action(SelectContext& e, const plugin::ActionEntry& entry) {
             stay = false;
         }
         ImGui::EndDisabled();
-        tip(why.empty() ? "In the background; what it does is one step to undo" : why.c_str());
+        tip(why.empty() ? "In the background; its changes are one undo step" : why.c_str());
         editor.mark("action.run");
         ImGui::SameLine();
         if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;

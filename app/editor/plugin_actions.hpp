@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of plugins (restage/action.h) in the editor: a menu, a dialog for those with parameters, and the run in the
-// background, whose result is one step of the history.
+// Actions of plugins (restage/action.h) in the editor: a menu, a dialog for those with parameters, and background runs,
+// whose results are one undo step each.
 #pragma once
 
 #include "contexts.hpp"
@@ -9,13 +9,13 @@
 
 namespace restage::editor {
 
-// "" or why it cannot run now: another one runs, or nothing is selected.
+// "" or why it cannot run now: another action is running, or nothing is selected.
 std::string why_not_now(const SelectContext& e, const model::Action& action);
-// Runs it over what is selected. Its new objects are selected afterwards.
+// Runs it on the selection. Its new objects are selected afterwards.
 void start_action(SelectContext& e, const plugin::ActionEntry& entry, scene::ParamSet values);
-// Asks for its parameters first, where it has some.
+// Opens a dialog for its parameters first, if it has any.
 void ask_for_action(SelectContext& e, const plugin::ActionEntry& entry);
-// The menu "Tools", between others in the menu bar; nothing where no plugin brings an action.
+// The Tools menu, within the menu bar; omitted if no plugin provides an action.
 void tools_menu(SelectContext& e);
 
 } // namespace restage::editor

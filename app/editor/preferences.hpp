@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preferences: what a user chose or has seen once, stored in the configuration folder; not part of any document.
+// Preferences: the user's choices, and hints already seen, stored in the configuration folder; not part of any
+// document.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,11 @@ namespace restage::editor {
 enum class KeyPreset { standard, blender };
 
 struct Preferences {
-    bool hint_seen = false; // how to begin, over the first picture
+    bool hint_seen = false; // the first-start hints over the picture
     KeyPreset keys = KeyPreset::standard;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // steps of drags with Ctrl: scene units, deg, factor
-    int history_mib = 512; // what the history may hold [MiB], 16 to 65536
-    std::string denoiser; // type or id of its plugin; "" = the one that came with the program
+    int history_mib = 512; // memory budget of the history [MiB], 16 to 65536
+    std::string denoiser; // type or id of its plugin; "" = the one shipped with the program
     bool operator==(const Preferences&) const = default;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Editor::probe(): state for tests that drive the program with real mouse and key events; and commands for what
-// mouse and keys cannot do.
+// Editor::probe(): state for tests that control the program with real mouse and key events; and commands for things
+// that mouse and keys cannot do.
 #include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
@@ -44,7 +44,7 @@ std::string Editor::probe() const {
     for (const InstanceId id : selection.instances()) {
         const scene::Instance* instance = scene().instances.find(id);
         if (!instance) continue;
-        if (j["selection"].size() >= 100) break; // enough for any test, and quick to write
+        if (j["selection"].size() >= 100) break; // enough for any test, and fast to write
         const scene::Bounds box = scene::world_bounds(scene(), id);
         const glm::dvec3 p(instance->object_to_world[3]);
         const scene::Material* material = scene().materials.find(instance->material);
@@ -69,7 +69,7 @@ std::string Editor::probe() const {
     j["sky"] = sky ? sky->name : "";
     if (sky) {
         const glm::dvec3 x(sky->light_to_world[0]);
-        j["sky_x"] = {x.x, x.y, x.z}; // where its own x axis points
+        j["sky_x"] = {x.x, x.y, x.z}; // direction of its x axis
         for (const auto& [name, value] : sky->sky_params.entries())
             j["sky_values"][name] = value.scalar();
     }
@@ -111,7 +111,7 @@ std::string Editor::probe() const {
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-// A line each: "drop PATH X Y", as a file manager would let it go there.
+// One per line: "drop PATH X Y", as if dropped there by a file manager.
 void Editor::run_commands(const std::string& lines) {
     std::istringstream in(lines);
     for (std::string line; std::getline(in, line);) {

@@ -23,7 +23,7 @@ namespace restage::editor {
 
 namespace {
 
-// Until the window is closed (0), or a signal comes (its exit code).
+// Runs until the window is closed (0), or a signal arrives (its exit code).
 Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const RunOptions& options,
                        const std::filesystem::path& commands, const std::function<void()>& write_aside) {
     std::error_code ignored;
@@ -64,7 +64,7 @@ Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const
     return 0;
 }
 
-// The configuration folder; "", or why nothing will be remembered. A read-only one is still read.
+// The configuration folder; "", or why nothing will be stored. A read-only one is still read.
 std::string prepare(std::filesystem::path& config) {
     if (config.empty()) {
         auto user = user_data_dir();
@@ -99,7 +99,7 @@ Result<int> run_editor(const RunOptions& options) {
     registry.set_judge(render::material_judge(bin.parent_path() / "share/restage/shaders"),
                        render::texture_judge(bin.parent_path() / "share/restage/shaders"));
 
-    // Frames are asked for from threads before and after the window's life: GLFW ignores that.
+    // Threads may request frames before and after the window exists: GLFW ignores that.
     Editor editor(registry, log, notices,
                   {.renderer = options.renderer,
                    .wake = Window::wake,
@@ -118,7 +118,7 @@ Result<int> run_editor(const RunOptions& options) {
     std::filesystem::path commands = options.probe;
     commands += ".in";
 
-    // Whatever ends the program, unsaved work is written aside first.
+    // However the program ends, unsaved work is saved for recovery first.
     const auto write_aside = [&editor] {
         if (editor.session().modified()) editor.files().autosave.write_now(editor.session(), 0);
     };

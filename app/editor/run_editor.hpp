@@ -20,10 +20,10 @@ struct RunOptions {
     std::filesystem::path config_dir; // "" = the user's
     double autosave_seconds = 60;     // interval between copies of unsaved work in its `recovery`
     struct {
-        bool safe_mode = false; // none but the program's own
+        bool safe_mode = false; // only the program's own
         std::vector<plugin::SearchPath> paths;
     } plugins;
-    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a process of their own
+    std::shared_ptr<const document::IsolateOptions> isolate; // scenes are read in a separate process
     std::filesystem::path probe;      // for tests: state is written here when it changes; PROBE.in holds commands
 };
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// First everything that can be opened, then each importer's, then every file.
+// First all files that can be opened, then each importer's, then all files.
 std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool projects) {
     std::vector<FileFilter> filters;
     FileFilter all{projects ? "Scenes and projects" : "Everything known", {}};
@@ -97,7 +97,7 @@ void ask_unsaved(Editor& e, const char* doing, Then then) {
     }
     e.show_modal(
         "Unsaved changes",
-        [text = fmt::format("{} has changes that are not saved. Save them before {}?",
+        [text = fmt::format("{} has unsaved changes. Save them before {}?",
                             e.session().path().empty() ? "The scene" : fs::path(e.session().path()).filename().string(),
                             doing),
          then = std::move(then), &editor = e](PanelContext&) {

@@ -16,7 +16,7 @@ void Selection::set(std::span<const InstanceId> ids, Mode mode) {
     const std::unordered_set<InstanceId> given(ids.begin(), ids.end());
     std::erase_if(instances_, [&](InstanceId id) { return given.contains(id) && members_.erase(id) > 0; });
     if (mode == Mode::toggle && all_there) return;
-    // Each once; of duplicates the last position counts, as the very last is the active one.
+    // Each once; of duplicates the last position counts, as the last one is the active object.
     const std::size_t before = instances_.size();
     for (auto id = ids.rbegin(); id != ids.rend(); ++id)
         if (members_.insert(*id).second) instances_.push_back(*id);
@@ -64,7 +64,7 @@ GroupId Selection::click_group(const scene::Scene& scene, InstanceId id) const {
         const scene::Group* item = scene.groups.find(group);
         group = item ? item->parent : GroupId{};
     }
-    // The entered group is not around it: the pick leaves that group.
+    // It is not in the entered group: the pick leaves that group.
     return outermost;
 }
 
@@ -72,7 +72,7 @@ std::vector<InstanceId> Selection::click_target(const scene::Scene& scene, Insta
     const GroupId group = click_group(scene, id);
     if (!group) return {id};
     auto all = instances_in(scene, group);
-    // The one that was hit is the active one.
+    // The object that was hit becomes the active one.
     std::erase(all, id);
     all.push_back(id);
     return all;

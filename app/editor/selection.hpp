@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selection: what the user has picked. Not part of the document, its history or any file. Objects in a group are
-// picked together until the group is entered.
+// Selection: the user's current selection. Not part of the document, its history or any file. Objects in a group are
+// selected together until the group is entered.
 #pragma once
 
 #include "scene/bounds.hpp"
@@ -17,14 +17,14 @@ using GroupId = scene::Id<scene::Group>;
 
 class Selection {
   public:
-    // In the order of picking; the last one is the active one, whose values panels show.
+    // In the order of selection; the last one is the active one, whose values panels show.
     const std::vector<InstanceId>& instances() const { return instances_; }
     bool empty() const { return instances_.empty() && !light_; }
     bool contains(InstanceId id) const { return members_.contains(id); }
     InstanceId active() const { return instances_.empty() ? InstanceId{} : instances_.back(); }
-    // A light without a surface; picking one drops the objects.
+    // A light without a surface; selecting one deselects the objects.
     scene::Id<scene::Light> light() const { return light_; }
-    // Picks are of single objects within this group, of whole groups elsewhere.
+    // Picks select single objects within this group, whole groups elsewhere.
     GroupId entered() const { return entered_; }
 
     enum class Mode { replace, add, toggle };
@@ -35,9 +35,9 @@ class Selection {
     // Forgets what no longer exists (after undo, delete).
     void prune(const scene::Scene& scene);
 
-    // What a click on `id` means: the object itself, or all of its outermost group that is not entered.
+    // The things selected by a click on `id`: the object itself, or all of its outermost group that is not entered.
     std::vector<InstanceId> click_target(const scene::Scene& scene, InstanceId id) const;
-    // The outermost group around the object inside the entered one; none when the object itself is meant.
+    // The outermost group around the object inside the entered one; none if a click selects the object itself.
     GroupId click_group(const scene::Scene& scene, InstanceId id) const;
 
     scene::Bounds bounds(const scene::Scene& scene) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SkyMaking: pictures of sky plugins are made on a thread of its own. Of what is asked for while one is being made only
-// the newest is made next, so that a slider may be dragged; one of another type is stopped. [main], but for the thread.
+// SkyMaking: generates images of sky plugins on its own thread. Of the requests that arrive meanwhile only the newest
+// is processed next, so that a slider may be dragged; a run for another type is cancelled. [main], except the thread.
 #pragma once
 
 #include "base/result.hpp"
@@ -33,13 +33,13 @@ class SkyMaking {
         Job job;
         Result<std::shared_ptr<const scene::PixelData>> pixels;
     };
-    // `now`: the environment that it is to replace.
+    // `now`: the environment that it will replace.
     void ask(Job job, const std::optional<scene::Environment>& now);
-    const Job* wanted() const { return wanted_ ? &*wanted_ : nullptr; } // the newest that is not made yet
-    // What is done, once. Nothing, and all that was asked for is given up, where the environment is no more what it was
-    // when it was asked for: something else was done meanwhile, or undone.
+    const Job* wanted() const { return wanted_ ? &*wanted_ : nullptr; } // the newest pending request
+    // The finished sky, returned once. If the environment has changed since the request, by an edit or an undo,
+    // returns nothing and drops all requests.
     std::optional<Made> take(const std::optional<scene::Environment>& now);
-    void made_environment(const std::optional<scene::Environment>& now) { expected_ = now; } // by an edit of ours
+    void made_environment(const std::optional<scene::Environment>& now) { expected_ = now; } // by an edit of this class
     void stop();
 
   private:
@@ -49,12 +49,12 @@ class SkyMaking {
     std::optional<Job> wanted_;
     std::optional<scene::Environment> expected_;
 
-    std::mutex mutex_; // of what follows
+    std::mutex mutex_; // of the members below
     std::condition_variable more_;
     std::optional<Job> next_;
     std::optional<Made> made_;
     std::string running_; // type
-    bool stop_ = false, abandon_ = false; // abandon: the one that is being made
+    bool stop_ = false, abandon_ = false; // abandon: cancels the current run
     std::thread thread_;
 };
 

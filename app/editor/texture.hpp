@@ -12,7 +12,7 @@
 namespace restage::editor {
 
 // A picture whose size changes often (the viewport's): one texture per size is kept, so that switching between
-// coarse and fine creates none. It outlives the window, whose end frees the device's copies.
+// coarse and fine allocates nothing. It must outlive the window, which frees the device's copies.
 class Texture {
   public:
     Texture() = default;
@@ -20,9 +20,9 @@ class Texture {
     Texture(const Texture&) = delete;
     Texture& operator=(const Texture&) = delete;
 
-    // RGBA, row 0 on top. Shows from this frame on.
+    // RGBA, row 0 on top. Visible from this frame on.
     void set(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> rgba);
-    void hide() { current_ = nullptr; } // until it is set again
+    void hide() { current_ = nullptr; } // until the next set()
     bool ready() const { return current_ != nullptr; }
     ImTextureRef ref() const { return current_->GetTexRef(); }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_settings.hpp"
 
-#include "model/texture.hpp"
 #include "contexts.hpp"
+#include "model/texture.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "theme.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 using TextureId = scene::Id<scene::Texture>;
 
-// Reads the file on another thread, then asks for the edit that `with` builds.
+// Reads the file on another thread, then requests the edit built by `with`.
 void read_image(EditContext& e, const std::string& file, scene::Encoding encoding,
                 std::function<Result<scene::Edit>(const scene::Scene&, scene::Image)> with) {
     const std::string path = std::filesystem::absolute(file).lexically_normal().string();
@@ -40,7 +40,7 @@ void read_image(EditContext& e, const std::string& file, scene::Encoding encodin
 
 void image_rows(EditContext& e, TextureId id, const scene::Texture& texture, const std::string& mark) {
     const scene::Image* image = e.scene().images.find(texture.image);
-    form_row("Image", image && !image->path.empty() ? image->path.c_str() : "The picture that it looks up");
+    form_row("Image", image && !image->path.empty() ? image->path.c_str() : "Its picture");
     const std::string name = image ? image->name : "Choose...";
     if (ImGui::Button((name + "###image").c_str(), {ImGui::CalcItemWidth(), 0})) ImGui::OpenPopup("image");
     tip("Click to choose another file");
@@ -59,12 +59,12 @@ void image_rows(EditContext& e, TextureId id, const scene::Texture& texture, con
         ImGui::TextDisabled("%u × %u, %s", image->data->width, image->data->height,
                             image->encoding == scene::Encoding::srgb ? "sRGB" : "linear");
     else
-        warning_note(image ? "The image is missing; it shades grey." : "It has no image yet; it shades grey.");
+        warning_note(image ? "The image is missing; grey is shown." : "It has no image yet; grey is shown.");
 }
 
 void type_row(EditContext& e, TextureId id, const scene::Texture& texture,
               const std::optional<plugin::TextureEntry>& plugin, const std::string& mark) {
-    form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of texture it is");
+    form_row("Type", plugin ? plugin->table->tooltip.c_str() : "The type of texture");
     if (ImGui::BeginCombo("##type", (plugin ? plugin->table->label : texture.type).c_str(),
                           ImGuiComboFlags_HeightLargest)) {
         for (const plugin::TextureEntry& choice : e.registry().textures()) {
@@ -157,7 +157,7 @@ void texture_settings(EditContext& e, TextureId id, const std::string& mark) {
     e.mark(mark + ".name");
     if (!plugin) {
         warning_note(
-            fmt::format("No plugin provides \"{}\". It shades as its average; its values are kept and written back.",
+            fmt::format("No plugin provides \"{}\". It is shown as its average; its values are kept and written back.",
                         texture.type)
                 .c_str());
         ImGui::TreePop();

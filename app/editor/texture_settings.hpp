@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is in a texture slot: its type, its parameters as rows like a material's, its operands with what is in them.
+// The settings of the texture in a slot: its type, its parameters as rows like a material's, and its operands with
+// their textures.
 #pragma once
 
 #include "param_widget.hpp"
@@ -7,11 +8,11 @@
 
 namespace restage::editor {
 
-// Rows that ask for edits themselves.
+// Draws the rows; each requests its own edits.
 void texture_settings(EditContext& editor, scene::Id<scene::Texture> texture, const std::string& mark);
 
-// Asks for the edit of what the user asked of a parameter. `gesture`: of changes of its value, which are one step
-// until released.
+// Requests the edit for a change to a parameter. `gesture`: the gesture its value changes belong to, which form one
+// undo step until the control is released.
 void carry_out(EditContext& editor, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture);
 
 } // namespace restage::editor

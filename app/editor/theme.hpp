@@ -10,8 +10,8 @@
 
 namespace restage::editor {
 
-// Call once after the context is made. A font that is missing leaves Dear ImGui's own. `fallback`: for what it has no
-// glyphs for; they are drawn when they are first needed.
+// Call once after the context is created. Without the font Dear ImGui's own is used. `fallback`: for missing glyphs,
+// which are rasterized on first use.
 void apply_theme(float scale, const std::filesystem::path& fonts, std::span<const FallbackFont> fallback = {});
 
 namespace colors {

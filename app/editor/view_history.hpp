@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewHistory: earlier viewpoints, to step back and forth through. Looking around does not change the document: the
-// view leaves the scene's camera where it is, and returns to it when the camera itself is moved.
+// ViewHistory: earlier viewpoints, to step back and forth through. Navigation does not change the document: the scene's
+// camera stays in place, and the view returns to it when the camera itself is moved.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class ViewHistory {
     using Place = std::optional<glm::dmat4>; // camera to world; none = the scene's camera
 
     const Place& now() const { return places_[at_]; }
-    // Steps of one gesture, until it ends, are one entry.
+    // All steps of a gesture are one entry.
     void go(const Place& to, std::string_view gesture = {});
     void end_gesture() { gesture_.clear(); }
     bool can_back() const { return at_ > 0; }

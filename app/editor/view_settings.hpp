@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewSettings: how things are shown; not part of the document, so none of it is undone or restarts the picture.
+// ViewSettings: display settings; not part of the document: never undone, and they never restart the picture.
 #pragma once
 
 #include "preferences.hpp"
@@ -17,13 +17,13 @@ struct ViewSettings {
     bool show_overlays = true; // outlines, gizmo, names
     bool show_panels = true; // Tab
     bool inspect_pixels = false; // values under the mouse
-    float resolution = 1; // picture pixels a screen pixel
+    float resolution = 1; // picture pixels per screen pixel
     GizmoMode gizmo = GizmoMode::move;
     bool local_axes = false;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // scene units, deg, factor
     KeyPreset keys = KeyPreset::standard;
-    bool camera_locked = true; // looking around moves the view alone
-    float fly_speed = 1; // times the scene's size a few seconds
+    bool camera_locked = true; // navigation moves only the view
+    float fly_speed = 1; // multiple of a scene size per few seconds
     std::uint32_t samples = 0; // where the live picture stops; 0 = the scene's number
     double seconds = 0, error = 0;
 };

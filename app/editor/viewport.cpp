@@ -46,7 +46,7 @@ void Viewport::draw(PanelContext& e) {
         draw->AddImage(picture_.ref(), corner, end);
     } else if (e.scene().instances.live() == 0 && !e.opening().running()) {
         draw_welcome(e, origin, space);
-    } else if (e.scene().instances.live() > 0) { // a picture is coming: draw_progress() shows how far along
+    } else if (e.scene().instances.live() > 0) { // a picture is being prepared: draw_progress() shows its progress
         draw->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg));
     }
     GizmoState gizmo;
@@ -118,10 +118,10 @@ void Viewport::update_textures(PanelContext& e) {
         drawn_ = frame;
         drawn_settings_ = settings;
     }
-    // Outlines: the edge of what is selected or hovered, from the instance ids.
+    // Outlines: the edges of selected or hovered objects, from the instance ids.
     OutlineKey key{frame.get(), e.selection.instances(), {}};
     if (e.scene().instances.find(e.drop_target_before))
-        key.hovered = {e.drop_target_before}, key.selected.clear(); // the drop target alone
+        key.hovered = {e.drop_target_before}, key.selected.clear(); // only the drop target
     else if (e.scene().instances.find(e.hovered_before) && frame->divider <= 2)
         key.hovered = e.selection.click_target(e.scene(), e.hovered_before);
     if (key == outlined_) return;
@@ -158,8 +158,8 @@ void Viewport::draw_overlays(PanelContext& e) {
 // --- picking
 // -----------------------------------------------------------------------------------------------------------
 
-// Dragged to the right, a box takes what is visible in it and nowhere else, so that neither the floor nor the wall
-// behind comes along; dragged to the left, all that is visible in it. As in CAD programs.
+// Dragged to the right, a box selects objects visible only inside it, which excludes the floor and the wall behind;
+// dragged to the left, all objects visible in it. As in CAD programs.
 std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImVec2 to) const {
     std::vector<InstanceId> ids;
     if (!drawn_) return ids;
@@ -198,7 +198,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        // Into the group; on nothing, or on a single object: the point there becomes the centre of orbits.
+        // Enters the group; on nothing, or on a single object, the point there becomes the centre of orbits.
         const InstanceId id = pickable(picked_at(e, io.MousePos));
         if (const GroupId group = e.selection.click_group(e.scene(), id)) {
             e.selection.enter(group);
@@ -235,8 +235,8 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         draw->AddRectFilled(press_, io.MousePos, ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.12f}));
         draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::accent));
         ImGui::SetTooltip(io.MousePos.x >= press_.x
-                              ? "What is wholly in the box (to the left: all it touches)"
-                              : "All that the box touches (to the right: only what is wholly in it)");
+                              ? "Objects entirely inside the box (to the left: all it touches)"
+                              : "All that the box touches (to the right: only objects entirely inside)");
     }
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
     pressed_ = false;
@@ -252,7 +252,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         return;
     }
     InstanceId id = pickable(picked_at(e, io.MousePos));
-    // The same place again, with what was picked there still selected: picks what is behind.
+    // A click at the same place, with the picked object still selected, picks the object behind.
     const bool again = !e.selection.instances().empty() &&
                        std::abs(io.MousePos.x - last_click_.x) + std::abs(io.MousePos.y - last_click_.y) < 3;
     behind_ = again && mode == Selection::Mode::replace ? behind_ + 1 : 0;
@@ -261,7 +261,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         const query::ViewRay ray = query::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
         const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction,
                                              [&](InstanceId hit) { return e.locked.contains(hit.value); });
-        // Each thing that can be picked once, however many parts of it the ray meets.
+        // Each pickable thing once, however many parts of it the ray hits.
         std::vector<InstanceId> targets;
         std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or the object if it has none
         for (const query::RayHit& hit : hits) {

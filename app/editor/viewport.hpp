@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Viewport: the picture, what lies over it (outlines, handles, notes), and what the mouse does in it: navigate, pick,
-// drop.
+// Viewport: the picture, its overlays (outlines, handles, notes), and mouse input: navigation, picking,
+// dropping.
 #pragma once
 
 #include "drag.hpp"
@@ -28,14 +28,15 @@ class Viewport {
     Drag gizmo_drag; // of the handles
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
-    // The object seen there in the shown picture; none outside.
+    // The object visible there in the shown picture; none outside.
     InstanceId instance_at(const PanelContext& editor, ImVec2 screen) const;
     std::uint64_t shown_request() const { return drawn_ ? drawn_->request : 0; } // of LiveView::show
     bool shows_clay() const { return drawn_ && drawn_->clay; }
     bool shows_clean() const { return drawn_ && drawn_->denoised && drawn_->divider <= 2; }
     bool navigating() const { return navigation_ != Navigation::none; }
-    bool dragging() const; // what is selected, or a box
-    void cancel(PanelContext& editor); // the running drag; until all is released, the mouse and T do nothing else
+    bool dragging() const; // the selection, or a box
+    void cancel(
+        PanelContext& editor); // the running drag; until everything is released, the mouse and T have no other effect
 
   private:
     enum class Navigation { none, orbit, pan, dolly, fly };
@@ -63,7 +64,7 @@ class Viewport {
     glm::dvec3 pivot(const PanelContext& editor) const;
 
     Texture picture_, outline_;
-    std::shared_ptr<const view::Frame> drawn_; // what picture_ holds
+    std::shared_ptr<const view::Frame> drawn_; // contents of picture_
     view::DisplaySettings drawn_settings_;
     std::size_t most_compiling_ = 0; // shaders, since the scene was opened
     struct OutlineKey {
@@ -77,17 +78,17 @@ class Viewport {
     Navigation navigation_ = Navigation::none;
     std::optional<glm::dvec3> orbit_center_; // set by a double click
     double wheel_time_ = 0;                  // of the last turn
-    Drag slide_; // of the object itself, or the knob
+    Drag slide_; // of a drag of the object itself, or the knob
     ImVec2 press_{0, 0};
     bool pressed_ = false, boxing_ = false, sticking_ = false;
     bool on_knob_ = false; // the knob was pressed
     bool cone_held_ = false; // the handle of a spot's cone
     bool cancelled_ = false; // until all buttons and T are released
     ImVec2 last_click_{-1, -1};
-    std::size_t behind_ = 0; // how often the same point was clicked
+    std::size_t behind_ = 0; // number of clicks on the same point
 };
 
-// The text at the picture's corner. `compiling`: a material whose code is not ready; "" = none.
+// The text in the picture's corner. `compiling`: a material whose code is not ready; "" = none.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera);
 
 } // namespace restage::editor

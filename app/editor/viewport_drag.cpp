@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dragging what is selected by itself, or by the knob between its handles: it slides over the floor, at its height, and
-// stays under the mouse. Handles that point at the viewer are too short to drag; this never is. Also what
-// follows the mouse: sticking the selection to what is under it, and the values of the pixel there.
+// Dragging the selection directly, or by the knob between its handles: it slides horizontally, and stays under the
+// mouse. This also works if handles point at the viewer and are too short to drag. Also things that follow the mouse:
+// sticking the selection to the surface under it, and the values of the pixel there.
 #include "document/session.hpp"
 #include "panel_context.hpp"
 #include "pick_tool.hpp"
@@ -80,7 +80,7 @@ void Viewport::stick(PanelContext& e, bool over) {
     const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction,
                                          [&](InstanceId id) { return e.selection.contains(id); });
     if (hits.empty()) return;
-    // The middle of the box side that faces the surface lands on it.
+    // The centre of the box side that faces the surface is placed on it.
     const scene::Bounds bounds = e.selection.bounds(e.scene());
     const glm::dvec3 n = hits[0].normal;
     const double reach = 0.5 * glm::dot(bounds.size(), glm::abs(n));

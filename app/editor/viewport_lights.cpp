@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights without a surface over the picture: marks that can be clicked, and the cone of a spot.
+// Lights without a surface as overlays: clickable marks, and the cone of a spot.
 #include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
@@ -19,7 +19,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t rim_points = 48;
 
-// A point's place on the screen; none behind the camera.
+// A point's position on the screen; none behind the camera.
 std::optional<ImVec2> on_screen(const PanelContext& e, const Viewport& v, const glm::dvec3& world) {
     const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
     if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
@@ -34,7 +34,7 @@ struct Cone {
     }
 };
 
-// Reaches to what it shines on; shorter for wide ones, whose rim would be far out.
+// Extends to the surface it lights; shorter for wide ones, whose rim would be far away.
 Cone cone_of(const PanelContext& e, const scene::Light& light) {
     const glm::dmat4& m = light.light_to_world;
     Cone cone{.tip = glm::dvec3(m[3]), .x = {}, .y = {}, .z = glm::normalize(glm::dvec3(m[2]))};
@@ -106,11 +106,11 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     const ImU32 bright = ImGui::GetColorU32(colors::accent), dim = ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.45f});
     rim(double(light.cone_angle), bright);
     if (light.cone_delta > 0)
-        rim(std::max(0.0, double(light.cone_angle - light.cone_delta)), dim); // where it fades from
+        rim(std::max(0.0, double(light.cone_angle - light.cone_delta)), dim); // where it begins to fade
     for (const double turn : {0.0, 0.5 * pi, pi, 1.5 * pi})
         line(cone.tip, cone.rim(radius(double(light.cone_angle)), turn), dim);
 
-    // Its handle, at the point of the rim that is farthest right in the picture: dragged out, the cone is wider.
+    // Its handle, at the rightmost point of the rim in the picture: dragging it outwards widens the cone.
     std::optional<ImVec2> handle;
     for (std::size_t i = 0; i < rim_points; ++i)
         if (const auto at =
@@ -135,7 +135,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (!cone_held_ && !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) return;
     cone_held_ = true;
-    // The mouse on the plane of the rim.
+    // The mouse position on the plane of the rim.
     const query::ViewRay ray = query::view_ray(e.camera(), film_point(mouse), e.film_aspect());
     const double t = glm::dot(cone.tip + cone.z * cone.length - ray.origin, cone.z) / glm::dot(ray.direction, cone.z);
     if (!std::isfinite(t) || t <= 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the mouse and WASD do to the view, or to the camera if it is not locked. Every gesture is one step of its
+// Navigation by mouse and WASD: of the view, or of the camera if it is not locked. Every gesture is one step of its
 // history.
 #include "panel_context.hpp"
 #include "query/navigation.hpp"
@@ -42,7 +42,7 @@ void Viewport::navigate(PanelContext& e, bool over) {
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Right))
             navigation_ = alt ? Navigation::dolly : Navigation::fly;
         else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && alt && !on_knob_)
-            navigation_ = Navigation::orbit; // wherever it begins: looking around changes nothing. On handles Alt lifts
+            navigation_ = Navigation::orbit; // wherever it begins: navigation changes nothing. On handles Alt lifts
     }
     const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsMouseDown(ImGuiMouseButton_Middle) ||
                       ImGui::IsMouseDown(ImGuiMouseButton_Right);
@@ -55,9 +55,9 @@ void Viewport::navigate(PanelContext& e, bool over) {
     scene::Camera camera = e.camera();
     const glm::dvec2 delta(io.MouseDelta.x / size.y, io.MouseDelta.y / size.y); // of the picture's height
     const bool moved = delta.x != 0 || delta.y != 0;
-    // The world turns with the mouse: the camera moves the other way. Mirrored cameras see it the other way round.
+    // The world turns with the mouse, so the camera moves the opposite way. Mirrored cameras reverse this.
     const bool mirrored = glm::determinant(glm::dmat3(camera.camera_to_world)) < 0;
-    const double turn = mirrored ? -3.0 : 3.0; // [rad] a picture height
+    const double turn = mirrored ? -3.0 : 3.0; // [rad] per picture height
     switch (navigation_) {
         case Navigation::none:
             break;
@@ -98,7 +98,7 @@ void Viewport::navigate(PanelContext& e, bool over) {
     }
 
     if (over && io.MouseWheel != 0 && navigation_ == Navigation::none) {
-        // Towards what is under the mouse.
+        // Towards the point under the mouse.
         const query::ViewRay ray = query::view_ray(camera, film_point(io.MousePos), aspect);
         double distance = glm::length(pivot(e) - ray.origin);
         if (const InstanceId id = instance_at(e, io.MousePos); id && drawn_) {

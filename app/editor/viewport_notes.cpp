@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewport shows around and over the picture: the toolbar, its state, how to begin.
+// The viewport's toolbar, its state display, and the first-start hints.
 #include "actions.hpp"
 #include "files.hpp"
 #include "opening.hpp"
@@ -24,7 +24,7 @@ namespace {
 void draw_steps(PanelContext& e) {
     if (!ImGui::BeginPopup("steps")) return;
     dialog_width(230);
-    ImGui::TextColored(colors::dim, "A drag with Ctrl goes in steps of");
+    ImGui::TextColored(colors::dim, "Dragging with Ctrl moves in steps of");
     const auto row = [&](const char* label, const char* tooltip, float* value, float least, float most,
                          const char* format, const char* mark) {
         ImGui::PushID(mark);
@@ -33,7 +33,7 @@ void draw_steps(PanelContext& e) {
         e.mark(mark);
         ImGui::PopID();
     };
-    row("Move", "In scene units, mostly metres", &e.view.snap_move, 1e-4f, 1e6f, "%.4g", "steps.move");
+    row("Move", "In scene units, usually metres", &e.view.snap_move, 1e-4f, 1e6f, "%.4g", "steps.move");
     row("Turn", "Of a rotation", &e.view.snap_angle, 0.1f, 180, "%.4g°", "steps.angle");
     row("Stretch", "Of the factor", &e.view.snap_scale, 1e-3f, 100, "%.4g×", "steps.scale");
     ImGui::EndPopup();
@@ -44,7 +44,7 @@ void draw_steps(PanelContext& e) {
 void Viewport::draw_toolbar(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, margin = 6 * scale;
     ImGui::SetCursorPos({margin, ImGui::GetCursorPosY() + 4 * scale});
-    // Items that do not fit wrap to the next line; `joined` ones stand close together.
+    // Items that do not fit wrap to the next line; `joined` ones are placed close together.
     const auto next = [&](float width, bool joined = false) {
         ImGui::SameLine(0, joined ? 2 * scale : -1);
         if (ImGui::GetContentRegionAvail().x >= width + margin) return;
@@ -62,7 +62,7 @@ void Viewport::draw_toolbar(PanelContext& e) {
     button("view.local", e.view.local_axes ? "Local axes" : "World axes");
     next(ImGui::CalcTextSize("Steps").x + 2 * ImGui::GetStyle().FramePadding.x);
     if (ImGui::Button("Steps")) ImGui::OpenPopup("steps");
-    tip("The steps that drags with Ctrl go in");
+    tip("Step sizes of drags with Ctrl");
     e.mark("toolbar.steps");
     draw_steps(e);
     const std::string missing = e.live().denoiser_missing();
@@ -85,20 +85,21 @@ void Viewport::draw_toolbar(PanelContext& e) {
         if (choice.name == e.view.display.layer) layer = int(layers.size());
         layers.push_back(choice.label);
     }
-    if (combo("##layer", layer, layers, 96,
-              "What is shown: the picture, the denoiser's guides (surface colours, normals, distance), objects and "
-              "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
-              "toolbar.layer"))
+    if (combo(
+            "##layer", layer, layers, 96,
+            "The displayed layer: the picture, the denoiser's guides (surface colours, normals, distance), objects and "
+            "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
+            "toolbar.layer"))
         e.view.display.layer = view::layer_choices()[std::size_t(layer)].name;
     next(84 * scale);
     ImGui::SetNextItemWidth(84 * scale);
     ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
-    tip("Exposure of the view, in stops: +1 is twice as bright. Changes no file. Ctrl+click to type");
+    tip("Exposure of the view, in stops: +1 is twice as bright. Does not change files. Ctrl+click to type");
     e.mark("toolbar.exposure");
     static constexpr const char* tones[] = {"Standard", "Filmic"};
     int tone = int(e.view.display.tone);
     if (combo("##tone", tone, tones, 88,
-              "How light becomes screen colours. Standard: as in a saved PNG (sRGB), too bright is white. Filmic: "
+              "The tone curve. Standard: as in a saved PNG (sRGB), clipped to white. Filmic: "
               "softer highlights",
               "toolbar.tone"))
         e.view.display.tone = view::ToneCurve(tone);
@@ -107,12 +108,12 @@ void Viewport::draw_toolbar(PanelContext& e) {
 // For the shown picture, not for the one being rendered.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera) {
     const std::uint32_t samples = std::max(shown.image.samples, 1u);
-    std::string text = fmt::format("{} × {}, {} sample{} a pixel", shown.image.width, shown.image.height, samples,
+    std::string text = fmt::format("{} × {}, {} sample{} per pixel", shown.image.width, shown.image.height, samples,
                                    samples == 1 ? "" : "s");
     if (shown.relative_error < 1) text += fmt::format(", error {:.1f} %", shown.relative_error * 100);
     if (shown.denoised) text += ", denoised";
     if (beside_camera) text += ", seen from beside the camera";
-    if (!compiling.empty()) text += fmt::format("\n{} is being compiled; until then it is shown plain", compiling);
+    if (!compiling.empty()) text += fmt::format("\n{} is being compiled; until then it is shown simplified", compiling);
     return text;
 }
 
@@ -164,7 +165,7 @@ void Viewport::draw_progress(PanelContext& e) {
         ImGui::Text("Compiling %zu shader%s", most_compiling_, most_compiling_ == 1 ? "" : "s");
         ImGui::ProgressBar(float(done) / float(most_compiling_), {-1, 0}, status.compiling.c_str());
     } else {
-        // Duration unknown: an indeterminate bar. It need not move; frames are drawn on events.
+        // Unknown duration: an indeterminate bar. It need not move, as frames are drawn on events.
         ImGui::TextUnformatted(status.state == view::ViewState::starting ? "Starting the renderer"
                                                                          : "Preparing the scene");
         ImGui::ProgressBar(0, {-1, 0}, drawn_ ? "rendering the first picture" : "reading geometry and textures");
@@ -178,9 +179,9 @@ void Viewport::draw_darkness(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, width = std::min(340 * scale, size.x - 24 * scale);
     ImGui::SetCursorScreenPos({corner.x + (size.x - width) / 2, corner.y + size.y * 0.4f});
     ImGui::BeginChild("darkness", {width, 0}, ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
-    ImGui::TextWrapped("Nothing shines in this scene, so its picture is black.");
+    ImGui::TextWrapped("Nothing emits light in this scene, so its picture is black.");
     if (ImGui::Button("Light it with a neutral studio", {-FLT_MIN, 0})) light_with_studio(e);
-    tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
+    tip("Soft grey light from all directions; in a closed room also a lamp at the camera");
     e.mark("viewport.studio");
     ImGui::EndChild();
 }
@@ -194,8 +195,8 @@ void Viewport::draw_hint(PanelContext& e) {
     const bool blender = e.view.keys == KeyPreset::blender;
     const std::string text = fmt::format(
         "Click an object to select it; drag its handles to move it.\n"
-        "{} turns the view, {} shifts it, the wheel zooms.\n"
-        "Ctrl+Z takes anything back; ? shows every key.",
+        "{} rotates the view, {} shifts it, the wheel zooms.\n"
+        "Ctrl+Z undoes anything; ? shows all keys.",
         blender ? "Middle drag" : "Alt + drag", blender ? "Shift + middle drag" : "middle drag");
     const float scale = ImGui::GetStyle().FontScaleMain, pad = 10 * scale;
     const float wrap = std::max(size.x - 6 * pad, 60.f);
@@ -231,7 +232,7 @@ void Viewport::draw_welcome(PanelContext& e, ImVec2 origin, ImVec2 space) {
         const auto room = bin->parent_path() / "share/restage/scenes/demo/demo.pbrt";
         if (std::error_code none; std::filesystem::exists(room, none)) {
             if (ImGui::Button("Open the example room", {-FLT_MIN, 0})) e.open(room);
-            tip("A furnished room to try things on");
+            tip("A furnished room to experiment with");
             e.mark("welcome.example");
         }
     }

@@ -21,7 +21,7 @@
 #include <dlfcn.h>
 #endif
 
-// Part of Dear ImGui's backend, but not in its header.
+// Part of Dear ImGui's backend, but missing from its header.
 ImGuiKey ImGui_ImplGlfw_KeyToImGuiKey(int keycode, int scancode);
 
 namespace restage::editor {
@@ -169,7 +169,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     if (!glfwInit())
         return fail("the window cannot be opened: " + glfw_error() +
                     "; without a display use the commands (`restage --help`)");
-    auto impl = std::make_unique<Impl>(); // from here its destructor cleans up
+    auto impl = std::make_unique<Impl>(); // from here on its destructor cleans up
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     impl->window = glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr);
@@ -223,7 +223,7 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options, Log
     const VkFormat formats[] = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM};
     impl->swap.SurfaceFormat = ImGui_ImplVulkanH_SelectSurfaceFormat(device.physical_device(), impl->surface, formats,
                                                                      2, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR);
-    // MAILBOX does not wait for the screen, so a frame that waits never delays input; FIFO is always there.
+    // MAILBOX does not wait for the screen, so a queued frame never delays input; FIFO is always supported.
     const VkPresentModeKHR modes[] = {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_FIFO_KHR};
     impl->swap.PresentMode = ImGui_ImplVulkanH_SelectPresentMode(device.physical_device(), impl->surface, modes, 2);
     RESTAGE_CHECK(impl->resize());
@@ -280,8 +280,8 @@ Result<bool> Window::begin_frame() {
 }
 
 Result<void> Window::end_frame() {
-    // Dear ImGui spreads simultaneous events (a press and its release) over frames, and what a click opens settles its
-    // size and place in the next frames.
+    // Dear ImGui spreads simultaneous events (a press and its release) over frames, and a popup opened by a click
+    // settles its size and place in the next frames.
     const ImGuiContext& context = *ImGui::GetCurrentContext();
     const bool input = !context.InputEventsQueue.empty() || !context.InputEventsTrail.empty();
     impl_->settling = input ? 3 : std::max(impl_->settling - 1, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Window: one GLFW window that Dear ImGui draws into through Vulkan, with a device of its own, so that drawing never
+// Window: one GLFW window that Dear ImGui draws into through Vulkan, with its own device, so that drawing never
 // waits for rendering. Begin a frame, build the UI, end it. [main]
 #pragma once
 
@@ -26,7 +26,7 @@ struct WindowOptions {
     bool validation = false;
     float scale = 0;                 // of text and widgets; 0 = the monitor's
     std::filesystem::path fonts;     // folder with the UI's fonts
-    std::filesystem::path layout;    // folder that remembers the panels; "" = none
+    std::filesystem::path layout;    // folder that stores the layout; "" = none
 };
 
 class Window {
@@ -52,7 +52,7 @@ class Window {
     bool input_waits() const; // Dear ImGui takes some events a frame later than others
 
     bool close_requested() const;
-    bool display_gone() const; // Wayland's compositor has ended. X11 ends the process itself: see Farewell
+    bool display_gone() const; // the Wayland compositor has exited. X11 ends the process itself: see Farewell
     void refuse_close();
     std::vector<std::filesystem::path> take_dropped(glm::vec2& where); // files dropped on it since the last call
     void set_title(const std::string& title);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing what is not the project: exports through the exporter plugins, and the live picture as an image.
+// Writing files other than the project: exports through the exporter plugins, and the live picture as an image.
 #include "background.hpp"
 #include "document/session.hpp"
 #include "file_browser.hpp"
@@ -66,7 +66,7 @@ void option_widget(PanelContext& e, const model::Param& line, scene::ParamSet& v
         case model::ParamType::material:
         case model::ParamType::texture:
         case model::ParamType::table:
-            break; // no option can be one
+            break; // not possible for an option
     }
     e.mark(std::string("export.") + line.id);
     tip(line.tooltip.c_str());
@@ -120,7 +120,7 @@ void start_export(PanelContext& e, const fs::path& path, io::ExportOptions optio
         });
 }
 
-// The live picture, as traced and, where there is one of the same film, denoised.
+// The live picture, as traced and, if there is a denoised one of the same film, denoised.
 std::optional<view::Picture> live_picture(const PanelContext& e) {
     const auto raw = e.live().frame(), clean = e.live().denoised();
     if (!raw || raw->document != e.document()) return std::nullopt;
@@ -131,7 +131,7 @@ std::optional<view::Picture> live_picture(const PanelContext& e) {
     return picture;
 }
 
-// What is on screen, eight bits a channel.
+// The picture on screen, eight bits per channel.
 Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
                            const view::DisplaySettings& settings) {
     std::vector<std::uint32_t> rgba;
@@ -209,7 +209,7 @@ void save_image_dialog(PanelContext& e) {
         if (!picture || picture->document != editor.document())
             ImGui::TextUnformatted("There is no picture yet.");
         else
-            ImGui::Text("The live picture as it is: %u × %u, %u samples a pixel", picture->image.width,
+            ImGui::Text("The current live picture: %u × %u, %u samples per pixel", picture->image.width,
                         picture->image.height, picture->image.samples);
         for (int i = 0; i < 3; ++i) {
             if (i) ImGui::SameLine();
@@ -221,7 +221,7 @@ void save_image_dialog(PanelContext& e) {
             tip("With the exposure, tone curve and layer of the view. Off: clipped sRGB at the scene's own exposure");
         }
         ImGui::Checkbox("Denoised", &state->denoised);
-        tip(state->format == 1 ? "The raw picture is a layer beside it" : "Off: with its noise");
+        tip(state->format == 1 ? "The raw picture is an additional layer" : "Off: noisy");
         editor.mark("image.denoised");
         ImGui::Spacing();
         bool stay = true;

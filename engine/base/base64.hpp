@@ -9,6 +9,6 @@
 namespace restage {
 
 std::string encode_base64(std::string_view bytes);
-std::optional<std::string> decode_base64(std::string_view text); // nullopt: it is not base64
+std::optional<std::string> decode_base64(std::string_view text); // nullopt if it is not base64
 
 } // namespace restage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CopyOnWrite<T>: a value that copies share until one of them changes it. Each holder is used by one thread at a
+// CopyOnWrite<T>: a value shared by its copies until one of them changes it. Each holder is used by one thread at a
 // time, like any value; different holders of the same value may be read, changed and destroyed on different threads.
 #pragma once
 

@@ -60,7 +60,7 @@ void on_fatal(int number) {
             ::close(file);
         }
     }
-    // The previous action takes its course: a fault recurs when this returns, abort() proceeds by itself.
+    // The previous action proceeds: a fault recurs when this returns, abort() proceeds by itself.
     if (which) sigaction(number, &which->before, nullptr);
 }
 

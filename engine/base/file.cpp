@@ -47,7 +47,7 @@ bool flush_to_disk(std::FILE* file) {
 #endif
 }
 
-// After a rename the folder's entry has to reach the disk too. Where file systems cannot do it, nothing is lost.
+// After a rename the folder's entry must be flushed as well. Ignored if the file system does not support it.
 void flush_folder(const fs::path& folder) {
 #if !defined(_WIN32)
     const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -15,8 +15,8 @@ namespace restage {
 
 constexpr std::uint64_t most_file_bytes = std::uint64_t{16} << 30; // default limit of read_file
 
-// A regular file, open for reading: never a folder, a device, a pipe or a socket, which may be endless or block for
-// ever. Opening does not block either. Errors read "is a pipe, not a regular file".
+// A regular file, open for reading: never a folder, a device, a pipe or a socket, which may be endless or block
+// forever. Opening does not block either. Errors read "is a pipe, not a regular file".
 class RegularFile {
   public:
     static Result<RegularFile> open(const std::filesystem::path&);

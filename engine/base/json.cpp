@@ -9,7 +9,7 @@ std::optional<std::size_t> too_deep_json(std::string_view text, std::size_t most
     std::size_t depth = 0;
     for (std::size_t at = 0; at < text.size(); ++at) {
         switch (text[at]) {
-            case '"': // a string: brackets inside do not count
+            case '"': // a string: brackets inside are ignored
                 for (++at; at < text.size() && text[at] != '"'; ++at)
                     if (text[at] == '\\') ++at;
                 break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading untrusted JSON. The library's parser does not recurse, but what is done with its
-// values (copies, comparisons, output, readers built on it) does: text nested too deep would overflow the stack.
+// Reading untrusted JSON. The library's parser does not recurse, but operations on its
+// values (copies, comparisons, output, readers built on it) do: text nested too deep would overflow the stack.
 #pragma once
 
 #include "base/result.hpp"

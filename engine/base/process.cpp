@@ -219,7 +219,7 @@ Result<ProcessOutcome> run_process(const Process& process) {
         ::poll(polled, 2, polled[0].fd < 0 && polled[1].fd < 0 ? 5 : 50);
         if (read_all()) last_heard = Clock::now();
     }
-    ::kill(-child, SIGKILL); // also processes it started and left behind
+    ::kill(-child, SIGKILL); // also processes that it started and did not end
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

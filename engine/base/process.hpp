@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs another program (no shell in between), with captured output and limits: for work that may crash,
-// hang or exhaust memory, such as an unknown plugin. POSIX; on Windows run_process is an error that says so.
+// hang or exhaust memory, such as an unknown plugin. POSIX; on Windows run_process returns an error.
 #pragma once
 
 #include "base/result.hpp"

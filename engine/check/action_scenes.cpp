@@ -67,7 +67,7 @@ ActionScene meadow() {
     return made;
 }
 
-// Each with another choice of them.
+// Each with different objects.
 std::vector<Ids> selections(Engine& e, const Scene& scene) {
     Ids all;
     scene.instances.each([&](Id<Instance> id, const Instance&) { all.push_back(id); });
@@ -86,7 +86,7 @@ std::vector<Ids> selections(Engine& e, const Scene& scene) {
 } // namespace
 
 std::vector<ActionScene> action_scenes(Engine& e) {
-    std::vector<ActionScene> all{{"a scene with something of everything", everything_scene(), {}},
+    std::vector<ActionScene> all{{"a scene with every kind of thing", everything_scene(), {}},
                                  meadow(),
                                  {"a scene without objects", empty_scene(), {}}};
     for (ActionScene& one : all)

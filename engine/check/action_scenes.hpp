@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that actions are run over, with selections that give them something to do.
+// Test scenes for actions, with suitable selections.
 #pragma once
 
 #include "check/configs.hpp"
@@ -13,12 +13,12 @@ namespace restage::check {
 struct ActionScene {
     std::string name;
     scene::Scene scene;
-    // In the order of picking, the last being the active one.
+    // In the order of selection; the last one is the active object.
     std::vector<std::vector<scene::Id<scene::Instance>>> selections;
 };
 
-// With something of everything, and its objects in several numbers and orders; hills with a tree of two objects in a
-// group, a stone, and the hills selected last, as a surface to work on; and a scene without objects.
+// One with every kind of thing, and its objects in several numbers and orders; hills with a tree of two objects in a
+// group, a stone, and the hills selected last, as the surface; and a scene without objects.
 std::vector<ActionScene> action_scenes(Engine&);
 
 } // namespace restage::check

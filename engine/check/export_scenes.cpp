@@ -52,7 +52,7 @@ Scene everything_scene() {
     Material matte{.name = "matte", .type = "diffuse"};
     matte.params.set("reflectance", Value{.type = model::ParamType::color, .texture = checker});
     const auto diffuse = b.add(std::move(matte));
-    Material strange{.name = "of a plugin that is not there", .type = "nosuchmaterial"};
+    Material strange{.name = "of a missing plugin", .type = "nosuchmaterial"};
     strange.params.set("gloss", Value::number(0.5f));
     strange.params.set("mode", Value::choice("soft"));
     const auto unknown = b.add(std::move(strange));
@@ -98,7 +98,7 @@ Scene empty_scene() {
     return b.scene;
 }
 
-// Where matrices, indices and digits show: nothing is symmetric, and no number is a short one.
+// Shows wrong matrices, indices and digits: nothing is symmetric, and no number has few digits.
 Scene geometry_scene() {
     Building b;
     auto data = std::make_shared<MeshData>();

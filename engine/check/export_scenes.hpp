@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What exporters are given to write.
+// Test scenes for exporters.
 #pragma once
 
 #include "model/formats.hpp"
@@ -9,12 +9,12 @@
 
 namespace restage::check {
 
-// Something of everything; names with spaces, quotes and letters of others; holes where things were removed.
+// Every kind of thing; names with spaces, quotes and non-ASCII letters; holes where things were removed.
 scene::Scene everything_scene();
-scene::Scene empty_scene(); // a camera and nothing else
-scene::Scene geometry_scene(); // three objects of one mesh, at places of their own
+scene::Scene empty_scene(); // only a camera
+scene::Scene geometry_scene(); // three objects of one mesh, at different places
 
-// Every choice of every option, one at a time, after the defaults.
+// The defaults, then every choice of every option, one at a time.
 std::vector<scene::ParamSet> option_sets(const model::Exporter&);
 
 } // namespace restage::check

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The editor's widgets without a window: they answer anything a user might do, and note what breaks the contract.
+// The editor's widgets without a window: they simulate any user input, and record violations of the contract.
 #pragma once
 
 #include "check/configs.hpp"
@@ -14,7 +14,7 @@
 
 namespace restage::check {
 
-// Of what was broken the first is shown.
+// Only the first violation is shown.
 struct FakeUi final : plugin::PanelWidgets {
     FakeUi(model::ParamTable declared, Engine& engine) : table(declared), random(engine) {}
 
@@ -22,29 +22,29 @@ struct FakeUi final : plugin::PanelWidgets {
     Engine& random;
     scene::ParamSet values;
     std::string problem, held;
-    std::vector<bool> groups; // those that are open
+    std::vector<bool> groups; // open groups
     std::size_t widgets = 0, sets = 0, looked_at = 0, runs = 0;
-    std::uint32_t selection = 0; // objects that are selected
-    std::function<std::string(const std::string&)> runs_action; // of a panel: "" or why it cannot run that action
-    double sum = 0; // of all that was shown: memory that is not there is noticed
+    std::uint32_t selection = 0; // selected objects
+    std::function<std::string(const std::string&)> runs_action; // of a panel: "" or why it cannot run this action
+    double sum = 0; // of everything shown: reads all memory, so that invalid pointers are found
 
     void note(std::string what) {
         if (problem.empty()) problem = std::move(what);
     }
     const model::Param* line(const char* id, const char* widget) {
         ++widgets;
-        if (!id) return note(fmt::format("{}() is given no id", widget)), nullptr;
+        if (!id) return note(fmt::format("{}() is called without an id", widget)), nullptr;
         if (const model::Param* found = model::find_param(table, id)) return found;
         note(fmt::format("{}() names \"{}\", which is not in the table", widget, id));
         return nullptr;
     }
     void said(const char* said_text, const char* widget) {
         ++widgets;
-        if (!said_text) return note(fmt::format("{}() is given no text", widget));
+        if (!said_text) return note(fmt::format("{}() is called without a text", widget));
         looked_at += std::strlen(said_text);
     }
     void numbers(const float* at, std::size_t count, const char* widget) {
-        if (!at && count > 0) return note(fmt::format("{}() is given no numbers", widget));
+        if (!at && count > 0) return note(fmt::format("{}() is called without numbers", widget));
         for (std::size_t i = 0; i < count; ++i) {
             if (!std::isfinite(at[i])) return note(fmt::format("{}() is given {}", widget, at[i]));
             sum += at[i];
@@ -69,7 +69,7 @@ struct FakeUi final : plugin::PanelWidgets {
         for (std::uint32_t i = 0; i < count; ++i)
             said(texts ? texts[i] : nullptr, "combo");
         if (current >= static_cast<int>(count))
-            note(fmt::format("combo() of {} texts shows number {}", count, current));
+            note(fmt::format("combo() of {} texts has the current index {}", count, current));
         return count > 0 && random() % 3 == 0 ? static_cast<int>(random() % count) : -1;
     }
     bool button(const char* label, const char* tooltip) override {
@@ -85,13 +85,13 @@ struct FakeUi final : plugin::PanelWidgets {
         return open;
     }
     void end_group() override {
-        if (groups.empty()) return note("end_group() without a group that is open");
+        if (groups.empty()) return note("end_group() without an open group");
         groups.pop_back();
     }
     void plot(const char* label, const float* y, std::uint32_t count, std::uint32_t channels, float, float, float,
               float) override {
         said(label, "plot");
-        if (channels != 1 && channels != 3) note(fmt::format("plot() of {} channels; 1 and 3 are possible", channels));
+        if (channels != 1 && channels != 3) note(fmt::format("plot() of {} channels; it must be 1 or 3", channels));
         numbers(y, std::size_t{count} * channels, "plot");
     }
     void curve(const char* label, const char* const* ids, std::uint32_t count) override {

@@ -164,7 +164,7 @@ Result<fs::path> write_pictures(Subject& s, const fs::path& folder) {
         "sans-serif;max-width:1100px;margin:2em auto}}figure{{display:inline-block;margin:8px;vertical-align:top;"
         "max-width:320px}}figcaption{{font-size:12px;color:#444}}</style>\n<h1>{0}</h1>\n<p>Written by <code>restage "
         "check "
-        "{0} --pictures</code>, seed {1}.</p>\n<h2>Samples beside pdf, in the plane of incidence</h2>\n",
+        "{0} --pictures</code>, seed {1}.</p>\n<h2>Samples and pdf, in the plane of incidence</h2>\n",
         type, s.options.seed);
     ParamSet rough = rough_config(s.table(), 0.3f, 0.3f);
     std::vector<ParamSet> sets{{}};

@@ -11,8 +11,8 @@ const std::vector<Step>& plugin_steps() {
         {"manifest", "plugin.json is complete and its files exist", check_manifest, "", load_calls},
         {"load", "the library opens, matches its manifest, and its tables are valid", check_load,
          "the plugin was built against another SDK, or a table does not match its headers", load_calls},
-        {"reload", "loaded and unloaded a hundred times, nothing is left behind", check_reload,
-         "memory of init() that shutdown() does not free, or a thread or static object that pins the library",
+        {"reload", "loaded and unloaded a hundred times, it leaks nothing", check_reload,
+         "memory of init() that shutdown() does not free, or a thread or static object that keeps the library loaded",
          load_calls},
     };
     return steps;
@@ -29,7 +29,7 @@ const std::vector<Step>& material_steps() {
         {"params", "values reach the GLSL and survive a project and a pbrt file", check_params,
          "two table lines with one id, one that has a meaning in a format (plugin), or choices that differ from "
          "those in the GLSL"},
-        {"sound", "finite and not negative, whatever the parameters and directions", check_sound,
+        {"sound", "finite and not negative, for any parameters and directions", check_sound,
          "a division by a cosine, by alpha or by 1 - eta, the root or logarithm of something just below 0, or "
          "normalize(0)"},
         {"chi-square", "samples follow pdf", check_chi_square,
@@ -54,7 +54,7 @@ const std::vector<Step>& material_steps() {
          "eval treats x and y differently: declare TANGENT"},
         {"limit", "a vanishing roughness looks like zero roughness", check_limit,
          "the smooth and the rough branch differ in a factor (Fresnel, eta^2, the choice of the lobe)"},
-        {"inspector", "its part of the inspector draws, whatever the user does", check_inspector,
+        {"inspector", "its inspector draws, for any user input", check_inspector,
          "an id no longer in the table, an array shorter than its count, or a value out of range", "draw()"},
         {"tables", "any file for its table parameters is read, or refused with a message", check_tables,
          "counts and offsets of a file used unchecked", "read()"},
@@ -65,17 +65,16 @@ const std::vector<Step>& material_steps() {
 const std::vector<Step>& texture_steps() {
     static const std::vector<Step> steps = {
         {"texture-glsl", "the GLSL of a texture compiles, in both colour modes", check_texture_glsl,
-         "see the line that the message names; the GLSL knows <restage/v1/...> and its own files. Colours of its own "
-         "are "
-         "made by texture_color()"},
+         "see the line that the message names; the GLSL may use <restage/v1/...> and its own files. Build colours with "
+         "texture_color()"},
         {"texture-names", "every name of a texture starts with its prefix", check_texture_names,
-         "the code of all textures and of a material stands in one shader"},
-        {"texture-values", "a texture is finite, and the same twice, whatever the parameters and places",
-         check_texture_values, "a division by what may be 0, the root or logarithm of something below 0, normalize(0)"},
-        {"texture-params", "each parameter of a texture changes something", check_texture_params,
-         "a line of the table that the GLSL does not read, or a range in which it does nothing"},
-        {"texture-native", "the native evaluation of a texture is the GLSL's", check_texture_native,
-         "the index of a value (4 a line of the table), rounding of a whole number, or a formula that was changed once",
+         "all textures share one shader with a material, so names must not clash"},
+        {"texture-values", "a texture is finite and deterministic for any parameters and places", check_texture_values,
+         "a division by something that may be 0, the root or logarithm of a negative number, normalize(0)"},
+        {"texture-params", "each parameter of a texture has an effect", check_texture_params,
+         "a table line that the GLSL does not read, or a range in which it has no effect"},
+        {"texture-native", "the native evaluation of a texture agrees with the GLSL", check_texture_native,
+         "the index of a value (4 per table line), rounding of an integer, or a formula changed in one of the two only",
          "eval()"},
     };
     return steps;
@@ -86,47 +85,47 @@ const std::vector<Step>& denoiser_steps() {
         {"denoise", "a constant picture is unchanged", check_denoise, "a scale that is not undone", "run()"},
         {"sizes", "one pixel, odd sizes, each guide alone, in place", check_denoise_sizes,
          "tiles or vectors that do not fit the size, or guides assumed to exist (they may be NULL)", "run()"},
-        {"robust", "NaN and infinity, determinism, a stop at each call of progress", check_denoise_robust,
+        {"robust", "NaN and infinity, determinism, cancelled at each call of progress", check_denoise_robust,
          "values used unchecked, threads that write to one place, or a result of "
          "progress() that is ignored",
          "run()"},
-        {"denoise-leaks", "a hundred runs, of which some are stopped, leave nothing behind", check_denoise_leaks,
-         "a buffer that is not freed where run() returns early", "run()"},
+        {"denoise-leaks", "a hundred runs, some cancelled, leak nothing", check_denoise_leaks,
+         "a buffer that is not freed if run() returns early", "run()"},
     };
     return steps;
 }
 
 const std::vector<Step>& importer_steps() {
     static const std::vector<Step> steps = {
-        {"probe", "noise and beginnings of its files are answered, its own files recognized", check_probe,
+        {"probe", "noise and truncated files get an answer, its own files are recognized", check_probe,
          "reading past the end of the head", "probe()"},
-        {"read", "its files twice the same; changed and as noise an answer", check_read,
+        {"read", "its files read identically twice; corrupted and noise files get an answer", check_read,
          "counts, offsets and indices of a file used unchecked", "load()"},
-        {"options", "its files are read with each option at its ends, twice the same", check_read_options,
-         "a choice that is not told apart, or a value that is divided by", "load()"},
-        {"cut", "its files cut short get an answer", check_read_cut, "a length of a file that is believed", "load()"},
-        {"stop", "it ends at whichever call of progress says so", check_read_stop,
+        {"options", "its files are read with each option at its limits, identically twice", check_read_options,
+         "a choice that is not handled, or a division by an option's value", "load()"},
+        {"cut", "truncated files get an answer", check_read_cut, "a length in the file used unchecked", "load()"},
+        {"stop", "it stops at any call of progress that returns 0", check_read_stop,
          "an answer of progress() that is ignored", "load()"},
-        {"read-leaks", "a hundred loads, of which some are refused and stopped, leave nothing behind", check_read_leaks,
-         "what is not freed, or not closed, where load() returns early", "load()"},
+        {"read-leaks", "a hundred loads, some refused or cancelled, leak nothing", check_read_leaks,
+         "memory not freed, or files not closed, if load() returns early", "load()"},
     };
     return steps;
 }
 
 const std::vector<Step>& exporter_steps() {
     static const std::vector<Step> steps = {
-        {"write", "something of everything, each option, twice the same bytes", check_write,
+        {"write", "every kind of thing, each option, identical bytes twice", check_write,
          "getters that return 0 (removed things, no environment) and optional pointers used "
-         "unchecked; or hash tables whose order gets into the file",
+         "unchecked; or hash tables whose order determines the file's",
          "save()"},
-        {"write-stop", "it ends at whichever call of progress says so, and the old file stays", check_write_stop,
+        {"write-stop", "it stops at any call of progress that returns 0, and keeps the old file", check_write_stop,
          "an answer of progress() that is ignored, or a file that is written in place", "save()"},
-        {"place", "a place that cannot be written is refused, a full disk noticed, and the old file stays",
-         check_write_place, "writes whose result is not looked at, or a file that is written in place", "save()"},
-        {"roundtrip", "what an importer makes of its file is what was written", check_roundtrip,
+        {"place", "an unwritable path and a full disk are reported, and the old file is kept", check_write_place,
+         "write errors that are ignored, or a file that is written in place", "save()"},
+        {"roundtrip", "an importer reads back what was written", check_roundtrip,
          "matrices that are transposed, indices off by one, or numbers with too few digits", "save() or load()"},
-        {"write-leaks", "a hundred saves, of which some are stopped, leave nothing behind", check_write_leaks,
-         "what is not freed, or not closed, where save() returns early", "save()"},
+        {"write-leaks", "a hundred saves, some cancelled, leak nothing", check_write_leaks,
+         "memory not freed, or files not closed, if save() returns early", "save()"},
     };
     return steps;
 }
@@ -134,24 +133,24 @@ const std::vector<Step>& exporter_steps() {
 const std::vector<Step>& action_steps() {
     static const std::vector<Step> steps = {
         {"act",
-         "any scene, selection and parameters: twice the same edits, others with another seed, sound; undo takes all "
-         "of them back",
+         "any scene, selection and parameters: identical, valid edits twice, different ones with another seed; undo "
+         "reverts "
+         "all of them",
          check_act,
-         "handles of the selection that are taken for granted, meshes without triangles, a failure without error(), or "
+         "handles of the selection used unchecked, meshes without triangles, a failure without error(), or "
          "random numbers without a seed",
          "run()"},
-        {"act-stop", "stopped at each call of progress it ends, and nothing has changed", check_act_stop,
+        {"act-stop", "it stops at any call of progress that returns 0, and nothing changes", check_act_stop,
          "an answer of progress() that is ignored", "run()"},
-        {"act-leaks", "a hundred runs leave nothing behind", check_act_leaks, "memory that run() does not free",
-         "run()"},
+        {"act-leaks", "a hundred runs leak nothing", check_act_leaks, "memory that run() does not free", "run()"},
     };
     return steps;
 }
 
 const std::vector<Step>& panel_steps() {
     static const std::vector<Step> steps = {
-        {"panel", "it draws, whatever the user does, and runs actions of its plugin", check_panel,
-         "an id that the table no longer has, an action of another id, a group that stays open, or a value out of "
+        {"panel", "it draws, for any user input, and runs actions of its plugin", check_panel,
+         "an id that is no longer in the table, an unknown action, a group that stays open, or a value out of "
          "range",
          "draw()"},
     };
@@ -160,16 +159,16 @@ const std::vector<Step>& panel_steps() {
 
 const std::vector<Step>& sky_steps() {
     static const std::vector<Step> steps = {
-        {"sky", "finite and not negative, twice the same, at any size and with any values", check_sky,
-         "a cosine at or below the horizon that is divided by, a direction that is not of length 1, or rows that are "
-         "counted in another way than width * width",
+        {"sky", "finite, not negative and deterministic, at any size and with any values", check_sky,
+         "a division by a cosine at or below the horizon, a direction not of unit length, or rows of another length "
+         "than "
+         "the width",
          "make()"},
-        {"sky-params", "each parameter does something", check_sky_params, "a value that is looked up by another id",
+        {"sky-params", "each parameter has an effect", check_sky_params, "a value that is looked up by the wrong id",
          "make()"},
-        {"sky-stop", "it ends when progress says so", check_sky_stop, "an answer of progress() that is ignored",
+        {"sky-stop", "it stops when progress returns 0", check_sky_stop, "an answer of progress() that is ignored",
          "make()"},
-        {"sky-runs", "a hundred skies leave nothing behind", check_sky_runs, "memory of make() that is not freed",
-         "make()"},
+        {"sky-runs", "a hundred skies leak nothing", check_sky_runs, "memory of make() that is not freed", "make()"},
     };
     return steps;
 }

@@ -47,7 +47,7 @@ Result<StepResult> check_panel(Subject&);
 Result<StepResult> check_glsl(Subject&);
 Result<StepResult> check_names(Subject&);
 Result<StepResult> check_cost(Subject&);
-// Do the files of a plugin that were compiled keep their names to its prefix?
+// Whether all names in the plugin's compiled files begin with its prefix.
 Result<StepResult> check_names_in(const Subject&, const gpu::Spirv&, const std::string& prefix,
                                   const std::string& glsl_file);
 // steps_texture.cpp

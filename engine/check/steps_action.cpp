@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions: over scenes with something of everything, a surface with objects to put on it, and nothing; each size of a
-// selection and any parameters: twice the same sound edits, another one with another seed, which undo takes back and
-// redo repeats; a stop at every call of progress(); a hundred runs. Panels: drawn
-// against widgets that answer anything a user might do.
+// Actions: on scenes with every kind of thing, with a surface and objects to put on it, and without objects; with
+// selections of several sizes and any parameters: identical, valid edits twice, different ones with another seed, which
+// undo reverts and redo repeats; cancelled at every call of progress(); a hundred runs. Panels: drawn with widgets that
+// simulate any user input.
 #include "check/action_scenes.hpp"
 #include "check/fake_ui.hpp"
 #include "check/steps.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using Ids = std::vector<Id<Instance>>;
 
-// Equal by what it holds; new geometry and pixels are shared by nobody.
+// Compares contents: new geometry and pixels are never shared.
 bool alike(const Mesh& a, Mesh b) {
     const auto x = a.data, y = b.data;
     b.data = a.data;
@@ -59,7 +59,7 @@ bool alike(const Edit& a, const Edit& b) {
     });
 }
 
-// Every thing and every single thing is what it was; slots that stay empty do not count.
+// All things and singletons are as before; additional empty slots are ignored.
 bool same(const Scene& a, const Scene& b) {
     bool equal = true;
     each_kind([&]<class T>(const Kind<T>& kind) {
@@ -75,14 +75,14 @@ std::string attempt(const std::string& scene, std::size_t selected, const ParamS
     return fmt::format("{}, {} objects selected, {}", scene, selected, describe(values));
 }
 
-// What the action takes of them.
+// The selections that the action accepts.
 std::vector<Ids> selections(const model::Action& action, const ActionScene& of) {
     std::vector<Ids> found = of.selections;
     if (action.needs_selection) std::erase_if(found, [](const Ids& ids) { return ids.empty(); });
     return found;
 }
 
-// By convention, what random numbers depend on (docs/plugins.md). Null if it has none, or if it can be but one.
+// By convention, the seed of random numbers (docs/plugins.md). Null if there is none, or if it has only one value.
 const model::Param* seed_of(const model::Action& action) {
     const model::Param* seed = action.find("seed");
     return seed && seed->type == model::ParamType::integer && seed->int_min < seed->int_max ? seed : nullptr;
@@ -92,7 +92,7 @@ struct Totals {
     std::size_t runs = 0, changed = 0, refused = 0, most_added = 0, seeds = 0;
 };
 
-// "" or what is wrong with two runs of the same, their edit, undo and redo.
+// "" or the problem with two identical runs, their edit, undo and redo.
 std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, Totals& totals) {
     document::Session session(s.registry());
     session.adopt(scene);
@@ -101,7 +101,7 @@ std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, 
     const auto second = io::run_action(before, s.registry(), s.action, run);
     s.alive();
     ++totals.runs;
-    if (first.has_value() != second.has_value()) return "running it twice, one fails and one does not";
+    if (first.has_value() != second.has_value()) return "of two identical runs one fails and one succeeds";
     if (!first) {
         const std::string& message = first.error().message;
         if (message.find(io::no_reason) != std::string::npos) return "run() returns 0, and error() was not called";
@@ -110,7 +110,7 @@ std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, 
         ++totals.refused;
         return "";
     }
-    if (!alike(first->edit, second->edit)) return "running it twice gives two different edits";
+    if (!alike(first->edit, second->edit)) return "two identical runs give different edits";
     if (const model::Param* seed = seed_of(*s.action.table);
         seed && !first->edit.changes.empty() && run.values.entries().empty()) {
         io::ActionRun other = run;
@@ -126,7 +126,7 @@ std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, 
     const Scene after = session.scene();
     totals.most_added = std::max<std::size_t>(
         totals.most_added, after.instances.live() - std::min(after.instances.live(), before.instances.live()));
-    if (done->changed && (session.history().size() != 1 || !session.undo())) return "it is not one step of the history";
+    if (done->changed && (session.history().size() != 1 || !session.undo())) return "it is not one undo step";
     if (!same(before, session.scene())) return "undo does not restore the scene";
     if (done->changed && (!session.redo() || !same(after, session.scene()))) return "redo does not repeat it";
     return "";
@@ -137,8 +137,8 @@ std::string judge_run(Subject& s, const Scene& scene, const io::ActionRun& run, 
 Result<StepResult> check_act(Subject& s) {
     Engine e = s.random("act");
     Totals totals;
-    std::size_t added = 0; // by the first run over the surface of the meadow
-    const auto patience = std::chrono::seconds(s.size(40, 8)); // for random parameters, which may ask for much
+    std::size_t added = 0; // by the first run on the surface of hills
+    const auto patience = std::chrono::seconds(s.size(40, 8)); // for random parameters, which may be expensive
     for (const ActionScene& sample : action_scenes(e)) {
         const auto start = std::chrono::steady_clock::now();
         for (std::size_t k = 0; k < s.size(60, 24); ++k) {
@@ -165,7 +165,7 @@ Result<StepResult> check_act(Subject& s) {
 
 namespace {
 
-// Parameters with which it asks progress() often enough to be stopped in its middle, if there are any.
+// Parameters with which it calls progress() often enough to be cancelled halfway, if there are any.
 ParamSet busy_values(Subject& s, Engine& e, const ActionScene& sample, const Ids& selection) {
     ParamSet busy;
     std::size_t most = 0;
@@ -187,12 +187,12 @@ ParamSet busy_values(Subject& s, Engine& e, const ActionScene& sample, const Ids
 } // namespace
 
 Result<StepResult> check_act_stop(Subject& s) {
-    constexpr std::uint64_t patience = 100; // changes after the first "stop"
+    constexpr std::uint64_t patience = 100; // changes after the first 0
     std::size_t calls_in_all = 0, stops = 0;
     Engine e = s.random("act-stop");
     for (const ActionScene& sample : action_scenes(e))
         for (const Ids& selection : selections(*s.action.table, sample)) {
-            std::size_t calls = 0, stop_at = 1024; // what goes on for longer is stopped there
+            std::size_t calls = 0, stop_at = 1024; // longer runs are cancelled there
             std::uint64_t late = 0;
             io::ActionRun run{.selection = selection,
                               .values = busy_values(s, e, sample, selection),
@@ -215,17 +215,17 @@ Result<StepResult> check_act_stop(Subject& s) {
                 const auto done = document::run_action(session, s.action.table->id, run);
                 s.alive();
                 if (done || !done.error().cancelled())
-                    return StepResult::failed(what + ": run() goes on and returns something else than a stop");
+                    return StepResult::failed(what + ": run() continues, and does not report that it was cancelled");
                 if (session.history().size() != 0 || session.version() != before.clock ||
                     !same(before, session.scene()))
                     return StepResult::failed(what + ": the scene has changed");
                 if (late > patience)
                     return StepResult::failed(
-                        fmt::format("{}: after progress() said stop, run() made {} changes more", what, late));
+                        fmt::format("{}: after progress() returned 0, run() made {} more changes", what, late));
             }
         }
     return StepResult::passed({{"calls of progress()", double(calls_in_all)}, {"stopped", double(stops)}},
-                              calls_in_all == 0 ? "it never asks progress(): nobody can stop it" : "");
+                              calls_in_all == 0 ? "it never calls progress(), so it cannot be stopped" : "");
 }
 
 Result<StepResult> check_act_leaks(Subject& s) {
@@ -236,7 +236,7 @@ Result<StepResult> check_act_leaks(Subject& s) {
     return check_nothing_left("runs", [&]() -> Result<> {
         const Ids& selection = chosen[runs % chosen.size()];
         s.doing(fmt::format("run() number {} on {}", ++runs, attempt(sample.name, selection.size(), {})));
-        std::size_t calls = 0; // some of them are stopped
+        std::size_t calls = 0; // some of them are cancelled
         const std::size_t stop_at = runs % 3 == 0 ? runs % 7 : ~std::size_t{0};
         (void)io::run_action(sample.scene, s.registry(), s.action,
                              {.selection = selection, .values = {}, .progress = [&](float, std::string_view) {
@@ -256,7 +256,7 @@ Result<StepResult> check_panel(Subject& s) {
     ui.runs_action = [&](const std::string& id) -> std::string {
         for (const auto& entry : catalogue->actions)
             if (entry.table->id == id) return "";
-        return fmt::format("run() names \"{}\", which is no action of the plugin", id);
+        return fmt::format("run() names \"{}\", which is not an action of the plugin", id);
     };
     for (std::size_t i = 0; i < draws; ++i) {
         if (i % 8 == 7) ui.values = random_values(s.panel.table->params, e);
@@ -269,7 +269,7 @@ Result<StepResult> check_panel(Subject& s) {
         if (!drawn) return StepResult::failed(drawn.error().message + "\n  in " + what);
         shown += ui.widgets, sets += ui.sets;
         ui.widgets = ui.sets = 0;
-        if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with a group that is open: end_group()");
+        if (ui.problem.empty() && !ui.groups.empty()) ui.note("draw() returns with an open group: call end_group()");
         if (!ui.problem.empty()) return StepResult::failed(ui.problem + "\n  in " + what);
     }
     return StepResult::passed({{"draws", double(draws)},

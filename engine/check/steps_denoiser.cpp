@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Denoisers: a constant picture of any size is unchanged, with all guides, some or none; non-finite pixels
-// do no harm; requests to stop are obeyed; the same picture twice gives the same bytes.
+// do no harm; it can be cancelled; the same picture twice gives the same bytes.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
 
@@ -65,9 +65,9 @@ struct Lab {
         const auto done = d.run(job);
         s.alive();
         if (!done) return what + ": refused: " + done.error().message;
-        if (p.overrun()) return what + ": it writes behind the end of its output";
+        if (p.overrun()) return what + ": it writes past the end of its output";
         if (job.output != job.color && std::memcmp(before.data(), p.color.data(), before.size() * sizeof(float)) != 0)
-            return what + ": it changes the picture it was given";
+            return what + ": it changes its input picture";
         const float* out = job.output;
         for (std::size_t i = 0; i < p.color.size(); ++i)
             if (!std::isfinite(out[i]) || out[i] < 0)
@@ -169,7 +169,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
             s.alive();
             if (!done && done.error().message == plugin::Denoiser::no_reason)
                 return StepResult::failed(what + ": refused without a reason");
-            if (p.overrun()) return StepResult::failed(what + ": it writes behind the end of its output");
+            if (p.overrun()) return StepResult::failed(what + ": it writes past the end of its output");
             if (!done) continue;
             for (std::size_t i = 0; i < p.color.size(); ++i)
                 if (!std::isfinite(p.out[i]))
@@ -190,7 +190,7 @@ Result<StepResult> check_denoise_robust(Subject& s) {
         else if (first != p.out)
             return StepResult::failed("denoising the same picture twice gives different results");
     }
-    // Stopped at each call.
+    // Cancelled at each call.
     struct Stop {
         std::size_t calls, stop_at;
     } stop{0, ~std::size_t{0}};

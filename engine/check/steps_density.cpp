@@ -13,7 +13,7 @@ namespace {
 constexpr double family_alpha = 0.01;
 
 std::string not_for(const Subject& s) {
-    if (!s.table().has_code()) return "has no GLSL of its own";
+    if (!s.table().has_code()) return "has no GLSL";
     if (s.table().stochastic) return "stochastic: see step expectation";
     return "";
 }

@@ -43,7 +43,7 @@ const double angles[] = {0, 30, 60, 75, 85, 89, 89.9, 91, 100, 120, 150, 180};
 } // namespace
 
 Result<StepResult> check_energy(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("energy");
     const auto declared = s.exception("energy");
@@ -87,7 +87,7 @@ Result<StepResult> check_energy(Subject& s) {
 }
 
 Result<StepResult> check_furnace(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     if (!s.table().lossless) return StepResult::skip("LOSSLESS is not declared");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("furnace");
@@ -120,7 +120,7 @@ Result<StepResult> check_furnace(Subject& s) {
 }
 
 Result<StepResult> check_albedo(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("albedo");
     const auto grid = config_grid(s.table(), e, s.size(24, 8));
@@ -137,7 +137,7 @@ Result<StepResult> check_albedo(Subject& s) {
                 const double off = std::abs(a[0].albedo[c] - p.channel[c].mean());
                 sum += off, n += 1;
                 if (off > worst)
-                    worst = off, worst_at = fmt::format("albedo() {:.3f}, really {:.3f}, with {}", a[0].albedo[c],
+                    worst = off, worst_at = fmt::format("albedo() {:.3f}, actual {:.3f}, with {}", a[0].albedo[c],
                                                         p.channel[c].mean(), where(grid[i], wo));
                 if (i == 0 && off > promised + 5 * p.channel[c].sigma())
                     return StepResult::failed(fmt::format(

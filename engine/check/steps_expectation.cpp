@@ -49,7 +49,7 @@ double light(const Vec3& w) {
 }
 
 std::string unfit(const Subject& s) {
-    if (!s.table().has_code()) return "has no GLSL of its own";
+    if (!s.table().has_code()) return "has no GLSL";
     if (!s.table().stochastic) return "not stochastic: see chi-square, integral and weight";
     return "";
 }

@@ -56,7 +56,7 @@ Result<StepResult> check_write(Subject& s) {
                 bytes += text.size();
         }
     if (open_files() > open_before + 2)
-        return StepResult::failed(fmt::format("{} files were left open", open_files() - open_before));
+        return StepResult::failed(fmt::format("{} files remain open", open_files() - open_before));
     return StepResult::passed({{"saved", double(saves)}, {"bytes", double(bytes)}});
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool has_glsl(const Subject& s) { return s.table().has_code(); }
-const char* const no_glsl = "has no GLSL of its own";
+const char* const no_glsl = "has no GLSL";
 
 double seconds_since(std::chrono::steady_clock::time_point t) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
@@ -164,8 +164,8 @@ Result<StepResult> check_names_in(const Subject& s, const gpu::Spirv& spirv, con
         const std::string name = file.filename().string();
         for (const Definition& d : forbidden)
             return StepResult::failed(
-                fmt::format("{}:{}: declares \"{}\": a plugin has no bindings, buffers or "
-                            "shared memory of its own; its parameters arrive in {}Params",
+                fmt::format("{}:{}: declares \"{}\": a plugin may not have bindings, buffers or "
+                            "shared memory; its parameters arrive in {}Params",
                             name, d.line, d.name, prefix));
         for (const Definition& d : found)
             if (!d.name.starts_with(prefix))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Importers: any file gets an answer, not a crash; a file of its own format reads identically twice, and requests to
-// stop are obeyed. The valid samples are the files in the plugin's folder with one of its extensions.
+// Importers: any file gets an answer, not a crash; a file of its own format reads identically twice, and it can be
+// cancelled. The valid samples are the files in the plugin's folder with one of its extensions.
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
 
@@ -62,13 +62,13 @@ struct Loading {
         const auto loaded = io::import_scene(file.string(), s.registry(), options);
         s.alive();
         accepted += loaded.has_value();
-        if (!loaded && loaded.error().message.ends_with("gave up and did not say why"))
+        if (!loaded && loaded.error().message.ends_with("failed without giving a reason"))
             return "load() of " + what + " returns 0, and error() was not called";
         return "";
     }
 };
 
-// A folder with what lies beside a file, which it may refer to.
+// A folder with copies of the file's neighbours, which it may refer to.
 fs::path with_neighbours(const fs::path& file, const fs::path& place) {
     std::error_code code;
     fs::copy(file.parent_path(), place, fs::copy_options::recursive, code);
@@ -90,7 +90,7 @@ Result<StepResult> check_probe(Subject& s) {
         s.alive();
         ++asked, probed += answer > 0;
         if (problem.empty() && (answer < 0 || answer > 100))
-            problem = fmt::format("probe() of {} answers {}, which is not in 0..100", what, answer);
+            problem = fmt::format("probe() of {} returns {}, which is not in 0..100", what, answer);
         return answer;
     };
     for (std::size_t i = 0; i < 200; ++i) {
@@ -102,8 +102,8 @@ Result<StepResult> check_probe(Subject& s) {
         const std::string name = file.filename().string();
         const auto head = std::string_view(text).substr(0, 4096);
         if (ask(file.string(), head, "its " + name) == 0)
-            return StepResult::failed("probe() of its own " + name + " answers 0: nobody would read that file");
-        for (std::size_t k = 0; k < 100; ++k) // exactly so many bytes, for tools that watch memory
+            return StepResult::failed("probe() of its own " + name + " returns 0: the file would not be read");
+        for (std::size_t k = 0; k < 100; ++k) // an exact allocation, so that memory checkers find overruns
             ask(file.string(), std::string(head.substr(0, k < 40 ? k : e() % (head.size() + 1))),
                 "its " + name + " cut short");
     }
@@ -148,15 +148,15 @@ Result<StepResult> check_read(Subject& s) {
     }
     const std::size_t open_after = open_files();
     if (open_after > open_before + 2)
-        return StepResult::failed(
-            fmt::format("{} of {} files were left open", open_after - open_before, loading.loads));
+        return StepResult::failed(fmt::format("{} of {} files remain open", open_after - open_before, loading.loads));
     std::vector<Figure> figures = {{"own files", double(good.size())},
                                    {"broken files and noise", double(loading.loads)},
                                    {"accepted", double(loading.accepted)}};
     return StepResult::passed(
-        figures, good.empty() ? "there is no file with its extension in its folder: put a small one into samples/, and "
-                                "it is read twice, cut short and changed here"
-                              : "");
+        figures, good.empty()
+                     ? "there is no file with its extension in its folder: put a small one into samples/ to have "
+                       "it read twice, truncated and altered here"
+                     : "");
 }
 
 Result<StepResult> check_read_options(Subject& s) {
@@ -191,7 +191,7 @@ Result<StepResult> check_read_options(Subject& s) {
         if (!matters && line.type != model::ParamType::text) idle += (idle.empty() ? "" : ", ") + line.id;
     }
     return StepResult::passed({{"options", double(s.importer->options.size())}, {"loads", double(loads)}},
-                              idle.empty() ? "" : "no file of its folder is read otherwise for: " + idle);
+                              idle.empty() ? "" : "no file of its folder is read differently with: " + idle);
 }
 
 Result<StepResult> check_read_cut(Subject& s) {
@@ -211,7 +211,7 @@ Result<StepResult> check_read_cut(Subject& s) {
             if (!problem.empty()) return StepResult::failed(problem);
         }
     }
-    return StepResult::passed({{"files cut short", double(loading.loads)}, {"accepted", double(loading.accepted)}});
+    return StepResult::passed({{"truncated files", double(loading.loads)}, {"accepted", double(loading.accepted)}});
 }
 
 Result<StepResult> check_read_stop(Subject& s) {
@@ -239,7 +239,7 @@ Result<StepResult> check_read_stop(Subject& s) {
                     fmt::format("{}: stopped at call {} of progress(), load() continues "
                                 "and returns a scene",
                                 name, k));
-            if (loaded.error().message.find("the plugin went on") != std::string::npos)
+            if (loaded.error().message.find("the plugin continued") != std::string::npos)
                 return StepResult::failed(fmt::format("stopped at call {}: {}", k, loaded.error().message));
         }
     }
@@ -265,8 +265,8 @@ Result<StepResult> check_read_leaks(Subject& s) {
         RESTAGE_CHECK(write_scratch(bad.back(), std::string_view(text).substr(0, text.size() * 2 / 3)));
     }
     std::size_t run = 0;
-    return check_nothing_left("load(), of good files, of broken ones and stopped,", [&]() -> Result<> {
-        s.doing("load(), again and again");
+    return check_nothing_left("load(), of good and broken files and cancelled,", [&]() -> Result<> {
+        s.doing("load(), repeatedly");
         for (const fs::path& file : good)
             RESTAGE_CHECK(io::import_scene(file.string(), s.registry(), options));
         for (const fs::path& file : bad)

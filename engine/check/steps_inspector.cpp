@@ -17,7 +17,7 @@ namespace restage::check {
 namespace fs = std::filesystem;
 Result<StepResult> check_inspector(Subject& s) {
     const plugin::Inspector* const inspector = s.registry().find_inspector(s.table().type);
-    if (!inspector) return StepResult::skip("it has no inspector of its own");
+    if (!inspector) return StepResult::skip("it has no inspector");
     Engine e = s.random("inspector");
     std::size_t shown = 0, sets = 0;
     const std::size_t draws = s.size(400, 120);
@@ -44,7 +44,7 @@ Result<StepResult> check_tables(Subject& s) {
         if (line.type == model::ParamType::table) lines.push_back(&line);
     if (lines.empty()) return StepResult::skip("it has no table parameter");
     const auto reader = s.material().source->table_reader();
-    if (!reader) return StepResult::failed("it has a table parameter and provides no restage.table/1 that reads it");
+    if (!reader) return StepResult::failed("it has a table parameter, but no restage.table/1 to read it");
     const TemporaryFolder folder;
     Engine e = s.random("tables");
     std::size_t files = 0, taken = 0, defaults = 0;
@@ -70,7 +70,7 @@ Result<StepResult> check_tables(Subject& s) {
             fs::remove(file, ignored);
             s.alive();
             ++files, taken += read.has_value();
-            if (!read && read.error().message.ends_with("refused it and did not say why"))
+            if (!read && read.error().message.ends_with("refused it without giving a reason"))
                 return StepResult::failed(
                     fmt::format("read() of {} bytes returns 0, and error() was not called", bytes.size()));
         }

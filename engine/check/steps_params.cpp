@@ -172,13 +172,13 @@ Result<StepResult> through_project(Subject& s, const scene::Scene& scene) {
     scene.materials.each([&](auto id, const scene::Material& m) {
         const scene::Material* other = back.materials.find(id);
         if ((!other || other->params != m.params || other->type != m.type) && text.empty())
-            text = fmt::format("a project file gives back {}\n  for {}", other ? describe(other->params) : "nothing",
+            text = fmt::format("a project file returns {}\n  for {}", other ? describe(other->params) : "nothing",
                                describe(m.params));
     });
     return text.empty() ? StepResult::passed({}) : StepResult::failed(text);
 }
 
-// Are both equal, with defaults filled in? Decimal values from the file may differ in the last bit.
+// Whether both are equal, with defaults filled in. Decimal values from the file may differ in the last bit.
 bool same_values(const model::Material& table, const ParamSet& a, const ParamSet& b) {
     for (std::uint32_t i = 0; i < table.params.size(); ++i) {
         const model::Param& p = table.params[i];
@@ -252,7 +252,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
         const scene::Material& m = scene.materials[scene::Id<scene::Material>{i}];
         const auto found = by_name.find(m.name);
         if (found == by_name.end() || found->second->type != m.type)
-            return StepResult::failed(fmt::format("a pbrt file gives back {}\n  for {}",
+            return StepResult::failed(fmt::format("a pbrt file returns {}\n  for {}",
                                                   found == by_name.end() ? "nothing" : found->second->type,
                                                   describe(m.params)));
         const ParamSet& other = found->second->params;
@@ -261,7 +261,7 @@ Result<StepResult> through_pbrt(Subject& s, const scene::Scene& scene, std::size
         RESTAGE_TRY(const double off, difference(s, m.params, other, e));
         if (!(off <= (s.table().stochastic ? 0.1 : 1e-2)))
             return StepResult::failed(
-                fmt::format("a pbrt file gives back a different material, whose f differs by {:.2g} %:\n  {}\n  for {}",
+                fmt::format("a pbrt file returns a different material, whose f differs by {:.2g} %:\n  {}\n  for {}",
                             100 * off, describe(other), describe(m.params)));
     }
     return StepResult::passed({});

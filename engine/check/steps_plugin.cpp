@@ -63,18 +63,18 @@ Result<StepResult> check_reload(Subject& s) {
     std::vector<Figure> figures = {{"loads", times},
                                    {"one load", seconds * 1000 / (warm_up + times), "ms"},
                                    {"memory grown", grown(before.resident, after.resident) / 1024, "KiB"}};
-    constexpr double most_growth = 1 << 20; // a few pages are due to the allocator
+    constexpr double most_growth = 1 << 20; // the allocator may keep a few pages
     if (grown(before.resident, after.resident) > most_growth)
         return StepResult::failed(fmt::format("memory grew by {:.1f} MiB in {} loads",
                                               grown(before.resident, after.resident) / (1 << 20), times),
                                   figures);
     if (grown(before.mappings, after.mappings) > times / 2)
-        return StepResult::failed(fmt::format("{} mappings were left behind in {} loads: the library is not unloaded",
+        return StepResult::failed(fmt::format("{} mappings remain after {} loads: the library is not unloaded",
                                               grown(before.mappings, after.mappings), times),
                                   figures);
     if (grown(before.files, after.files) > times / 2)
         return StepResult::failed(
-            fmt::format("{} files were left open in {} loads", grown(before.files, after.files), times), figures);
+            fmt::format("{} files remain open after {} loads", grown(before.files, after.files), times), figures);
     return StepResult::passed(figures);
 }
 

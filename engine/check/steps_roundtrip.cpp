@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exporters whose format somebody reads, in the same bundle or of Restage's own: a scene goes there and back, and its
-// triangles are where they were. What was read goes a second and third time, and is the same scene.
+// Exporters whose format has an importer, in the same bundle or among Restage's own: after a round trip of a scene its
+// triangles are where they were. The second and third round trips give the same scene.
 #include "check/export_scenes.hpp"
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What is seen of a scene's geometry, however it is divided into meshes and objects.
+// The visible geometry of a scene, however it is divided into meshes and objects.
 struct Seen {
     std::size_t triangles = 0;
     double area = 0;
@@ -44,13 +44,12 @@ struct Seen {
     }
     // "" or what differs.
     std::string difference(const Seen& other) const {
-        if (triangles != other.triangles) return fmt::format("{} triangles have become {}", triangles, other.triangles);
+        if (triangles != other.triangles) return fmt::format("{} triangles became {}", triangles, other.triangles);
         const double size = glm::length(upper - lower), tolerance = 1e-5 * size;
         const auto off = [&](glm::dvec3 a, glm::dvec3 b) { return !(glm::length(a - b) <= tolerance); };
         if (off(lower, other.lower) || off(upper, other.upper) || off(mean, other.mean))
-            return fmt::format(
-                "the corners are at ({:.6g}, {:.6g}, {:.6g}) in the mean, and were at ({:.6g}, {:.6g}, {:.6g})",
-                other.mean.x, other.mean.y, other.mean.z, mean.x, mean.y, mean.z);
+            return fmt::format("the mean of the vertices is ({:.6g}, {:.6g}, {:.6g}), and was ({:.6g}, {:.6g}, {:.6g})",
+                               other.mean.x, other.mean.y, other.mean.z, mean.x, mean.y, mean.z);
         return std::abs(area - other.area) <= 1e-4 * area
                    ? ""
                    : fmt::format("the area is {:.6g}, and was {:.6g}", other.area, area);
@@ -67,19 +66,19 @@ bool shares_extension(const model::Importer& in, const model::Exporter& out) {
 
 Result<StepResult> check_roundtrip(Subject& s) {
     const model::Exporter& exporter = *s.exporter;
-    // The bundle, and Restage's own; of one id the first is taken.
+    // The bundle and Restage's own plugins; for equal ids the first is used.
     Log silent([](LogLevel, std::string_view) {});
     plugin::Registry registry(silent, io::with_services());
     std::vector<plugin::SearchPath> paths = plugin::Registry::default_paths();
     std::erase_if(paths, [](const plugin::SearchPath& path) { return !path.own; });
     paths.insert(paths.begin(), {s.folder, true});
-    s.doing("init() or query(), beside Restage's own plugins");
+    s.doing("init() or query(), with Restage's own plugins loaded");
     registry.scan(paths);
     const auto importers = registry.importers();
     const auto reader = std::find_if(importers.begin(), importers.end(),
                                      [&](const auto& i) { return shares_extension(*i.table, exporter); });
     if (reader == importers.end())
-        return StepResult::skip("there is no importer of its format, here or of Restage's own");
+        return StepResult::skip("neither the bundle nor Restage has an importer for its format");
 
     const TemporaryFolder folder;
     const scene::Scene given = geometry_scene();
@@ -96,24 +95,23 @@ Result<StepResult> check_roundtrip(Subject& s) {
             std::error_code code;
             fs::remove_all(place, code);
             fs::create_directories(place, code);
-            s.doing(fmt::format("save(), {}, for the {}. time", what, round + 1));
+            s.doing(fmt::format("save(), {}, round {}", what, round + 1));
             const auto saved = io::export_scene(scene, file.string(), registry, options);
             if (!saved) return StepResult::failed(what + ": " + saved.error().message);
-            s.doing(fmt::format("load() of importer {} of what save() wrote, {}", reading.format, what));
+            s.doing(fmt::format("load() of importer {} on the output of save(), {}", reading.format, what));
             auto read = io::import_scene(file.string(), registry, reading);
             s.alive();
             if (!read)
-                return StepResult::failed(fmt::format("{}: the importer {} does not read it: {}", what, reading.format,
-                                                      read.error().message));
+                return StepResult::failed(
+                    fmt::format("{}: the importer {} cannot read it: {}", what, reading.format, read.error().message));
             const bool declared = saved->count(io::Fate::dropped) + saved->count(io::Fate::approximated) > 0;
             if (const std::string off = before.difference(Seen(read->scene)); !off.empty() && !declared)
-                return StepResult::failed(fmt::format(
-                    "{}: read back by the importer {}, {}; nothing of it was reported", what, reading.format, off));
-            if (round > 0) // what the format can hold it holds again
+                return StepResult::failed(fmt::format("{}: read back by the importer {}, {}; save() reported no loss",
+                                                      what, reading.format, off));
+            if (round > 0) // a scene that the format can hold must not change
                 if (const auto off = io::structural_differences(scene, read->scene, registry, {.most = 1});
                     !off.empty())
-                    return StepResult::failed(what +
-                                              ": written, read and written again, it is another scene: " + off[0]);
+                    return StepResult::failed(what + ": a second round trip changes the scene: " + off[0]);
             scene = std::move(read->scene);
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies: light is finite and not negative, whatever the values and the size; the same values give the same picture;
-// each parameter does something; whoever asks it to stop is heard; nothing is left behind.
+// Skies: radiance is finite and not negative for any values and size; the same values give the same image; each
+// parameter has an effect; a sky can be cancelled; nothing leaks.
 #include "check/configs.hpp"
 #include "check/steps.hpp"
 #include "check/workplace.hpp"
@@ -19,7 +19,7 @@ using scene::Value;
 struct Lab {
     Subject& s;
     const model::Sky& sky = *s.sky.table;
-    model::Material as_material = {}; // for random_config, which looks at the parameters alone
+    model::Material as_material = {}; // for random_config, which uses only the parameters
     std::size_t runs = 0;
 
     explicit Lab(Subject& subject) : s(subject) { as_material.params = sky.params; }
@@ -70,7 +70,7 @@ Result<StepResult> check_sky(Subject& s) {
         suns += made->suns.size();
         const auto again = lab.make(sets[i], width);
         if (!again || !same(*made, *again))
-            return StepResult::failed("the same values twice give two skies" + lab.at(sets[i]));
+            return StepResult::failed("the same values give two different skies" + lab.at(sets[i]));
     }
     for (const std::uint32_t width : {2u, 3u, 5u, 100u, 257u, 512u})
         if (const auto made = lab.make({}, width); !made) return StepResult::failed(made.error().message);
@@ -84,12 +84,12 @@ Result<StepResult> check_sky_params(Subject& s) {
     for (const model::Param& line : lab.sky.params) {
         const auto all = ends(line);
         bool matters = all.size() < 2;
-        for (std::size_t k = 0; !matters && k < 48; ++k) { // where another parameter does not hide it
+        for (std::size_t k = 0; !matters && k < 48; ++k) { // with others at random, as one may hide its effect
             ParamSet set = k == 0 ? ParamSet() : lab.random(e);
             set.set(line.id, all[0]);
             auto first = lab.make(set, 24);
             set.set(line.id, all[1 + k % (all.size() - 1)]);
-            // The ends of an angle may be one: then something between them.
+            // The ends of an angle may be equal: then a value between them.
             if (k % 2 && line.type == model::ParamType::number)
                 set.set(line.id, Value::number(line.min + (line.max - line.min) * (0.1f + 0.8f * float(k) / 48)));
             auto second = lab.make(set, 24);
@@ -98,7 +98,7 @@ Result<StepResult> check_sky_params(Subject& s) {
         }
         if (!matters) idle += (idle.empty() ? "" : ", ") + line.id;
     }
-    if (!idle.empty()) return StepResult::failed("nothing changes, wherever in its range, with: " + idle);
+    if (!idle.empty()) return StepResult::failed("no effect anywhere in the range of: " + idle);
     return StepResult::passed({{"parameters", double(lab.sky.params.size())}, {"skies", double(lab.runs)}});
 }
 
@@ -113,13 +113,14 @@ Result<StepResult> check_sky_stop(Subject& s) {
     for (std::size_t k = 1; k <= all; k += std::max<std::size_t>(all / s.size(64, 16), 1)) {
         calls = 0, stop_at = k;
         const auto made = lab.make({}, width, progress);
-        if (made) return StepResult::failed(fmt::format("stopped at call {} of progress(), it makes a sky", k));
+        if (made) return StepResult::failed(fmt::format("stopped at call {} of progress(), it still returns a sky", k));
         if (!made.error().cancelled()) return StepResult::failed(made.error().message);
         if (calls > k + patience)
-            return StepResult::failed(fmt::format("after progress() said stop, it was asked {} times more", calls - k));
+            return StepResult::failed(
+                fmt::format("after progress() returned 0, it was called {} more times", calls - k));
     }
     return StepResult::passed({{"calls of progress()", double(all)}, {"skies", double(lab.runs)}},
-                              all == 0 ? "it never asks progress(): nobody can stop it" : "");
+                              all == 0 ? "it never calls progress(), so it cannot be stopped" : "");
 }
 
 Result<StepResult> check_sky_runs(Subject& s) {

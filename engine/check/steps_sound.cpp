@@ -70,7 +70,7 @@ ParamSet extreme_config(const model::Material& table, Engine& e) {
 } // namespace
 
 Result<StepResult> check_sound(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     Engine e = s.random("sound");
     const std::size_t sets = s.size(4000, 1000), count = s.size(600'000, 60'000);
@@ -109,7 +109,7 @@ Result<StepResult> check_sound(Subject& s) {
                             describe(job.u));
     }
     std::vector<Figure> figures = {{"configurations", double(sets)}, {"directions", double(count)}};
-    if (bad > 0) return StepResult::failed(fmt::format("{} ({} of {} answers are wrong)", first, bad, count), figures);
+    if (bad > 0) return StepResult::failed(fmt::format("{} ({} of {} results are wrong)", first, bad, count), figures);
     return StepResult::passed(figures);
 }
 

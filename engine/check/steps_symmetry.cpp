@@ -13,7 +13,7 @@ using scene::ParamSet;
 
 // Helmholtz, with Veach's eta^2 (1997, Eq. 5.12): f(wo,wi) eta_i^2 / eta_o^2 = f(wi,wo) in radiance transport.
 Result<StepResult> check_reciprocity(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     if (s.table().nonreciprocal) return StepResult::skip("NONRECIPROCAL is declared");
     if (s.table().stochastic) return check_mean_reciprocity(s);
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
@@ -128,7 +128,7 @@ Result<StepResult> check_mean_isotropy(Subject& s) {
 
 // Without TANGENT the frame's x axis is arbitrary: dependence on it would vary between triangles.
 Result<StepResult> check_isotropy(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     if (s.table().tangent) return StepResult::skip("TANGENT is declared");
     if (s.table().stochastic) return check_mean_isotropy(s);
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
@@ -237,7 +237,7 @@ Result<std::array<Mean, environments>> response(BsdfLab& lab, const ParamSet& se
 } // namespace
 
 Result<StepResult> check_limit(Subject& s) {
-    if (!s.table().has_code()) return StepResult::skip("has no GLSL of its own");
+    if (!s.table().has_code()) return StepResult::skip("has no GLSL");
     if (with_roughness(s.table(), 0).entries().empty()) return StepResult::skip("no parameter is named a roughness");
     RESTAGE_TRY(BsdfLab* const lab, s.lab());
     const Vec3 tilted = from_degrees(40, 20);

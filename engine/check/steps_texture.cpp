@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps about textures: their GLSL, on the device, at a list of places, with parameters at random; and what their
-// native code makes of the same.
+// Textures: their GLSL, on the device, at a list of places, with random parameters; and their native code on the
+// same input.
 #include "check/steps.hpp"
 
 #include "render/texture_composer.hpp"
@@ -62,7 +62,7 @@ Result<gpu::Spirv> compile(Subject& s, bool spectral = false) {
     return compiler->compile(source);
 }
 
-// A scene of textures of the type, one a configuration, with an image where the type looks one up.
+// A scene of textures of the type, one per configuration, with an image if the type samples one.
 scene::Scene scene_of(const model::Texture& table, const std::vector<scene::ParamSet>& configs) {
     scene::Scene out;
     scene::Id<scene::Image> image;
@@ -82,7 +82,7 @@ scene::Scene scene_of(const model::Texture& table, const std::vector<scene::Para
 
 struct Answers {
     std::vector<glm::vec3> device;
-    std::vector<glm::vec3> native; // empty: it has no native code
+    std::vector<glm::vec3> native; // empty: no native code
 };
 
 Result<Answers> ask(Subject& s, const std::vector<scene::ParamSet>& configs, const std::vector<Place>& places) {
@@ -186,7 +186,7 @@ Result<StepResult> check_texture_glsl(Subject& s) {
     RESTAGE_TRY(const gpu::Spirv spirv, compile(s));
     if (const auto spectral = compile(s, true); !spectral)
         return StepResult::failed(spectral.error().message +
-                                  "\nin spectral mode, where a colour has four components: say Spectrum and "
+                                  "\nin spectral mode, where a colour has four components: use Spectrum and "
                                   "texture_color(), not vec3 or .rgb (restage/v1/texture.glsl)");
     return StepResult::passed({{"code", static_cast<double>(spirv.words.size() * 4), "bytes of SPIR-V"}});
 }
@@ -211,8 +211,8 @@ Result<StepResult> check_texture_values(Subject& s) {
             least = std::min(least, v[k]), most = std::max(most, v[k]);
         }
         if (!same(v, second.device[i]))
-            return StepResult::failed("it is " + text(v) + ", and the next time " + text(second.device[i]) + " at " +
-                                      where);
+            return StepResult::failed("it is " + text(v) + ", and on the second run " + text(second.device[i]) +
+                                      " at " + where);
     }
     return StepResult::passed({{"least", least}, {"most", most}});
 }
@@ -225,8 +225,8 @@ Result<StepResult> check_texture_params(Subject& s) {
         if (line.type == model::ParamType::text) continue;
         auto configs = random_configs(s, e, 17);
         std::vector<scene::ParamSet> pairs;
-        // Two that differ in this line alone: its ends; from the fourth on its default and something ever closer to it,
-        // as far out a pattern may be constant to the last bit.
+        // Two that differ in this line only: its ends; from the fourth on its default and values ever closer to it, as
+        // far from it a pattern may be constant to the last bit.
         for (std::size_t k = 0; k < configs.size(); ++k)
             for (const bool upper : {false, true}) {
                 scene::ParamSet set = k % 2 ? scene::ParamSet() : configs[k]; // the others: defaults, or random
@@ -261,7 +261,7 @@ Result<StepResult> check_texture_params(Subject& s) {
         for (std::size_t c = 0; c < pairs.size() && !differs; c += 2)
             for (std::size_t i = 0; i < places_each && !differs; ++i)
                 differs = !same(answers.device[c * places_each + i], answers.device[(c + 1) * places_each + i]);
-        if (!differs) return StepResult::failed(fmt::format("\"{}\" changes nothing, wherever in its range", line.id));
+        if (!differs) return StepResult::failed(fmt::format("\"{}\" has no effect anywhere in its range", line.id));
         ++seen;
     }
     return StepResult::passed({{"parameters", static_cast<double>(seen)}});
@@ -280,12 +280,12 @@ Result<StepResult> check_texture_native(Subject& s) {
         if (glm::length(a - b) <= 1e-3f + 1e-3f * glm::length(a)) continue;
         ++off, worst = i;
     }
-    // A place may be on the edge of a pattern, where rounding decides.
+    // At the edge of a pattern rounding decides.
     if (off > places.size() / 200)
-        return StepResult::failed(
-            fmt::format("at {} of {} places it is another value than the GLSL's: {} and not {} at {}", off,
-                        places.size(), text(answers.native[worst]), text(answers.device[worst]),
-                        at(places[worst], configs[places[worst].texture - 1])));
+        return StepResult::failed(fmt::format("at {} of {} places it differs from the GLSL: {} instead of {} at {}",
+                                              off, places.size(), text(answers.native[worst]),
+                                              text(answers.device[worst]),
+                                              at(places[worst], configs[places[worst].texture - 1])));
     return StepResult::passed({{"other values", static_cast<double>(off)}});
 }
 

@@ -110,8 +110,8 @@ const std::vector<DensityCase>& Subject::density_cases() {
     return density_cases_;
 }
 
-// Of a hundred configurations of a valid material one in ten shows such a p by chance. It is measured again, with four
-// times the samples: chance does not repeat, and a fault shows all the more. So are integrals that are off.
+// One in ten valid materials shows such a p by chance in one of its hundred configurations. It is measured again with
+// four times the samples: chance does not repeat, and a fault becomes clearer. So are integrals that differ.
 constexpr double suspicious = 1e-3, suspicious_sigma = 3;
 
 Result<const std::vector<DensityResult>*> Subject::densities() {
@@ -173,7 +173,7 @@ void run_steps(Subject& subject, const std::function<void(const std::string&, co
                 result = StepResult::skip(broken);
             } else {
                 auto answer = step.run(subject);
-                // Not the plugin's fault if this machine cannot run GLSL.
+                // It is not the plugin's fault if this machine cannot run GLSL.
                 result = answer                        ? std::move(*answer)
                          : subject.no_device().empty() ? StepResult::failed(answer.error().message)
                                                        : StepResult::skip("not checked: " + subject.no_device());

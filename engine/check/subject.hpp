@@ -46,7 +46,7 @@ class Subject {
     plugin::Registry& registry() { return *registry_; }
     const plugin::Entry* entry() const { return entry_; } // null before load
 
-    // The object of the following steps, if not a material.
+    // The subject of the following steps if it is not a material.
     const model::Importer* importer = nullptr;
     plugin::ImporterEntry importer_entry; // of it
     const model::Exporter* exporter = nullptr;
@@ -68,7 +68,7 @@ class Subject {
     const std::vector<DensityCase>& density_cases();
 
     std::optional<Exception> exception(const std::string& step) const;
-    Engine random(const char* step) const; // independent of what other steps draw
+    Engine random(const char* step) const; // independent of the random numbers of other steps
     std::size_t size(std::size_t full, std::size_t quick) const { return options.quick ? quick : full; }
 
   private:

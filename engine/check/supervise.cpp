@@ -63,7 +63,7 @@ StepResult ended_early(const ProcessOutcome& outcome, const std::string& step, c
     return result;
 }
 
-// Should the steps after this one run in a new process?
+// Whether the steps after this one run in a new process.
 bool goes_on(const ProcessOutcome& outcome, const std::string& step) {
     if (step.empty() || step == "manifest" || step == "load" || step == "glsl" || step == "names") return false;
     if (outcome.end == ProcessEnd::cancelled) return false;
@@ -162,7 +162,7 @@ Result<PluginReport> check_plugin(const Supervision& s) {
         std::string said = outcome.err;
         while (!said.empty() && said.back() == '\n')
             said.pop_back();
-        if (!said.empty()) result.text += "\n  it last said: " + said.substr(said.rfind('\n') + 1);
+        if (!said.empty()) result.text += "\n  its last output: " + said.substr(said.rfind('\n') + 1);
         report.steps.push_back(std::move(result));
         if (s.on_step) s.on_step(report, report.steps.back());
         // A crash counts for this step only; the others still run.

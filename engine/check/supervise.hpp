@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checking a plugin in a separate process, so that it may crash, hang or print garbage: `restage check --in-process`
-// reports on its standard output, as marked lines of JSON, what it begins and what it found.
+// reports its progress and results on standard output, as marked lines of JSON.
 #pragma once
 
 #include "check/subject.hpp"
@@ -15,7 +15,7 @@ struct Supervision {
     std::filesystem::path program; // the program `restage`
     std::filesystem::path folder;  // of the plugin
     CheckOptions options;
-    std::chrono::milliseconds answer_limit{60'000}; // maximum silence
+    std::chrono::milliseconds answer_limit{60'000}; // maximum time without output
     std::uint64_t memory_limit = 0;                 // bytes of address space; 0 = none
     std::function<void(const PluginReport& so_far, const StepResult&)> on_step;
     std::function<void(const std::string& step, const std::string& of)> on_begin;

@@ -104,7 +104,7 @@ Resources resources() {
 
 Result<StepResult> check_nothing_left(const std::string& what, const std::function<Result<>()>& once) {
     constexpr std::size_t warm_up = 20, times = 100;
-    // A page here and there is the allocator's, 40 bytes a run a cache that is still filling.
+    // Tolerates the allocator's spare pages, and 40 bytes per run for caches that are still filling.
     constexpr std::size_t most_resident = 1 << 20, most_heap = 40 * times;
     Resources before;
     for (std::size_t i = 0; i < warm_up + times; ++i) {
@@ -114,13 +114,14 @@ Result<StepResult> check_nothing_left(const std::string& what, const std::functi
     const Resources after = resources();
     const auto grown = [&](std::size_t Resources::* of) { return after.*of > before.*of ? after.*of - before.*of : 0; };
     const std::size_t heap = grown(&Resources::heap), resident = grown(&Resources::resident);
-    const std::vector<Figure> figures = {{"runs", double(times)}, {"memory left", double(heap) / times, "bytes a run"}};
+    const std::vector<Figure> figures = {{"runs", double(times)},
+                                         {"memory left", double(heap) / times, "bytes per run"}};
     const struct {
         std::size_t count;
         const char* things;
     } left[] = {{grown(&Resources::files), "files are left open"},
                 {grown(&Resources::threads), "threads are left running"},
-                {grown(&Resources::mappings), "mappings are left behind"}};
+                {grown(&Resources::mappings), "mappings are leaked"}};
     for (const auto& [count, things] : left)
         if (count > times / 4)
             return StepResult::failed(fmt::format("{} {} by {} times {}", count, things, times, what), figures);

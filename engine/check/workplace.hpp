@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shared by steps that run a plugin's native code: a temporary folder, noise, broken versions of a good
-// file, and what of this process somebody left behind.
+// file, and resources of this process that a plugin leaks.
 #pragma once
 
 #include "base/result.hpp"
@@ -29,16 +29,16 @@ std::string noise(Engine& e, std::size_t kind, std::string_view head = {});
 std::string broken_version(Engine& e, const std::string& good, std::size_t kind);
 
 std::size_t open_files(); // of this process; 0 if unknown
-// Of this process; 0 where it cannot be known: then nothing is compared.
+// Of this process; 0 if unknown: then it is not compared.
 struct Resources {
-    std::size_t resident = 0, heap = 0; // bytes; heap: what malloc has given and not got back
+    std::size_t resident = 0, heap = 0; // bytes; heap: allocated by malloc and not freed
     std::size_t mappings = 0, files = 0, threads = 0;
 };
 Resources resources();
-// Runs `once` 20 times, and 100 times more: nothing may be left behind by those. An error of `once` is a failure.
+// Runs `once` 20 times, then 100 times more, which must not leak. An error of `once` is a failure.
 Result<StepResult> check_nothing_left(const std::string& what, const std::function<Result<>()>& once);
 
-// Without the flush to the disk that write_file_atomic waits for: for files that are read once.
+// Without the flush to disk that write_file_atomic waits for: for files that are read once.
 Result<> write_scratch(const std::filesystem::path&, std::string_view bytes);
 // Every file below a folder, name and content, sorted: to compare two folders.
 using Contents = std::vector<std::pair<std::string, std::string>>;

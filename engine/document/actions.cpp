@@ -9,7 +9,7 @@ using namespace scene;
 
 namespace {
 
-// Moves an edit that was made of `base` onto `now`.
+// Rebases an edit made against `base` onto `now`.
 class Rebase {
   public:
     Rebase(const Scene& base, const Scene& now) : base_(base), now_(now) {}
@@ -22,18 +22,18 @@ class Rebase {
         if (!problem.empty()) return fail(problem + ": run it again");
         Scene after = now_;
         apply(after, edit);
-        // What is removed may be in use by now.
+        // Things to be removed may be in use by now.
         if (const std::string error = io::new_error(now_, after); !error.empty()) return fail(error);
         return {};
     }
     template <class T>
-    Id<T> moved(Id<T> id) const { // new things follow those that are there now
+    Id<T> moved(Id<T> id) const { // new ids follow the existing ones
         const std::uint32_t old = scene::table<T>(base_).size();
         return id.value > old ? Id<T>{id.value - old + scene::table<T>(now_).size()} : id;
     }
 
   private:
-    // Opening a document makes everything in it newer than anything before (Session::take).
+    // Opening a document gives everything in it newer versions than before (Session::take).
     bool replaced() const {
         bool all = true;
         each_single([&](const auto& single) { all &= (now_.*single.one).version > base_.clock; });
@@ -99,7 +99,7 @@ Result<plugin::ActionEntry> find_action(const plugin::Registry& registry, std::s
         known += (known.empty() ? "" : ", ") + entry.table->id;
     }
     return fail("there is no action \"" + std::string(id) + "\"; " +
-                (known.empty() ? "no plugin with one is loaded" : "known are: " + known));
+                (known.empty() ? "no plugin with actions is loaded" : "known: " + known));
 }
 
 Result<ActionDone> run_action(Session& session, std::string_view id, const io::ActionRun& run) {

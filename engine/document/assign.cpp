@@ -83,7 +83,7 @@ Result<Id<T>> named(const Scene& scene, const Assignment& a) {
     return id;
 }
 
-// A name that is not a number is a texture's.
+// A value that is not a number names a texture.
 bool begins_number(const std::string& text) { return !text.empty() && text.find_first_of("0123456789.+-") == 0; }
 
 Result<Value> value_of(const Scene& scene, const Assignment& a, model::ParamType type) {
@@ -179,7 +179,7 @@ Result<Edit> camera_edit(const Scene& scene, Id<Camera> id, const Assignment& a)
     return set_camera(scene, id, std::move(camera), "Change camera");
 }
 
-// Its type, or a value of its plugin's table; null: the field is another.
+// Its type, or a value of its plugin's table; null if it is another field.
 std::optional<Result<Edit>> plugin_sky_edit(const Session& session, const Assignment& a) {
     const Scene& scene = session.scene();
     const Camera* camera = scene.cameras.find(scene.active_camera.value);
@@ -204,7 +204,7 @@ std::optional<Result<Edit>> plugin_sky_edit(const Session& session, const Assign
 Result<Edit> sky_edit(const Session& session, const Assignment& a) {
     if (auto edit = plugin_sky_edit(session, a)) return std::move(*edit);
     const Scene& scene = session.scene();
-    if (!scene.environment.value) return fail(a.who + ": the scene has no sky; sky.type=NAME gives it a plugin's");
+    if (!scene.environment.value) return fail(a.who + ": the scene has no sky; set one of a plugin with sky.type=NAME");
     Environment sky = *scene.environment.value;
     if (a.field == "scale") {
         RESTAGE_TRY(sky.scale, color(a));

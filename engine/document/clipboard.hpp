@@ -23,7 +23,7 @@ Result<std::string> copy_text(const Session&, const Selected&);
 bool is_copy(std::string_view text); // looks like one
 struct Copy {
     scene::Scene scene;
-    bool material = false; // it stands for the material of its only object
+    bool material = false; // it represents the material of its only object
 };
 Result<Copy> read_copy(const std::string& text, const plugin::Registry&); // [worker]
 

@@ -27,7 +27,7 @@ struct Base {
     scene::ParamSet options{}; // of the importer: those that were set
 };
 
-// The source of geometry or pixels that came from a file: a project references them instead of storing them.
+// The source of geometry or pixels from a file: a project references them instead of storing them.
 struct DataSource {
     std::string file, format; // absolute; of the importer
     std::uint32_t id = 0;     // the mesh or image in the imported file
@@ -60,7 +60,7 @@ struct Document {
     DataSources sources;
     std::string unknown; // JSON: additions of a newer program to a project; written back
     std::map<std::string, std::string> note; // of a recovery file, see recovery.hpp
-    bool unsaved = false; // not what the file says: its scene was read with other options
+    bool unsaved = false; // not as in the file: its scene was read with other options
 };
 
 enum class BaseProblem { none, missing, changed }; // of a project's base that the user can solve by naming another file
@@ -77,7 +77,7 @@ struct ReadOptions {
     std::function<Result<std::shared_ptr<const scene::PixelData>>(const scene::Image&)> pixels{};
     BaseProblem* problem = nullptr; // set if reading fails for this reason
     bool expose = true; // exposure.hpp; false if only the objects of a file are wanted
-    // Of the importer (io::ImportOptions::values). None = none are set; of a project, those that it was saved with.
+    // Of the importer (io::ImportOptions::values). nullopt: none are set, or for a project the saved ones.
     std::optional<scene::ParamSet> import_options{};
 };
 

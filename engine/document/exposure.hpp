@@ -11,7 +11,7 @@
 
 namespace restage::document {
 
-// Is there any: a lamp, a visible emissive object, a sky that is not black?
+// Whether there is a lamp, a visible emissive object, or a sky that is not black.
 bool has_light(const scene::Scene&, const plugin::Registry&);
 inline constexpr const char* no_light = "nothing emits light in this scene, so its picture is black";
 

@@ -69,7 +69,7 @@ io::Report read_report(const std::string& text) {
 
 // Pictures that the scene names by path: decoded here, in the child, within its limits.
 using PictureKey = std::tuple<std::string, int, float>;
-constexpr std::uint64_t most_picture_bytes = std::uint64_t{16} << 30; // handed over, of one scene
+constexpr std::uint64_t most_picture_bytes = std::uint64_t{16} << 30; // total handed over for one scene
 
 PictureKey key_of(const scene::Image& image) { return {image.path, static_cast<int>(image.encoding), image.gamma}; }
 

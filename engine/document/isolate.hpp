@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading a scene in a separate process: for untrusted files. A crash, hang or memory exhaustion
 // there, in an importer or a library it uses, is an error here. The child runs `restage import-child`, which passes
-// the scene back as a self-contained project, and beside it, as plain numbers, the pictures that the scene names
-// by path: they too are decoded in the child, within its limits.
+// the scene back as a self-contained project and, as plain numbers in separate files, the images that the scene names
+// by path: these too are decoded in the child, within its limits.
 #pragma once
 
 #include "io/import.hpp"

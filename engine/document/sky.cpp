@@ -12,7 +12,7 @@ std::string known_skies(const plugin::Registry& registry) {
     std::string list;
     for (const auto& sky : registry.catalogue()->skies)
         list += (list.empty() ? "" : ", ") + sky.table->type;
-    return list.empty() ? "no sky plugin is loaded" : "there are: " + list;
+    return list.empty() ? "no sky plugin is loaded" : "known: " + list;
 }
 
 Result<Edit> plugin_sky(const Scene& scene, const plugin::Registry& registry, const std::string& type,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The edit that gives a scene the sky of a plugin, for callers that wait for it. The editor makes the picture on a
-// thread (app/editor/sky_making.hpp).
+// The edit that sets a plugin's sky, for callers that can wait. The editor generates the image on a thread
+// (app/editor/sky_making.hpp).
 #pragma once
 
 #include "base/result.hpp"
@@ -13,12 +13,12 @@
 
 namespace restage::document {
 
-// The sky of this type with these values; what is not among them is as the sky has it, where it is of this type
-// already, else the default. Refused: a type that no plugin has, values that its table does not take. [any]
+// A sky of this type with these values; other parameters keep the current sky's values if it is of this type, else they
+// take their defaults. Refused: a type without a plugin, values that its table does not accept. [any]
 Result<scene::Edit> plugin_sky(const scene::Scene&, const plugin::Registry&, const std::string& type,
                                const scene::ParamSet& values, const glm::dvec3& up, const io::Progress& = {});
 
-// "sunsky, dome", or that there is none: for messages.
+// For messages: "sunsky, dome", or a text saying that no sky plugin is loaded.
 std::string known_skies(const plugin::Registry&);
 
 } // namespace restage::document

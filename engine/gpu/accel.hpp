@@ -20,7 +20,7 @@ struct BlasInput {
     VkDeviceAddress vertices = 0; // three floats each
     std::uint32_t vertex_stride = 12;
     std::uint32_t vertex_count = 0;
-    VkDeviceAddress indices = 0; // three uint32 a triangle
+    VkDeviceAddress indices = 0; // three uint32 per triangle
     std::uint32_t triangle_count = 0;
     VkDeviceAddress boxes = 0; // VkAabbPositionsKHR, instead of triangles: intersection shaders define their contents
     std::uint32_t box_count = 0;

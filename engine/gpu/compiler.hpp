@@ -30,7 +30,7 @@ struct ShaderSource {
     // They are confined: they may include <restage/v1/...> from the compiler's folders and files of their own one,
     // declare no memory and use no built-in variables.
     std::vector<std::filesystem::path> plugin_folders = {};
-    // What files on disk held at some time, by absolute, lexically normal path: read instead of the disk. Some may be
+    // Snapshots of files on disk, by absolute, lexically normal path: read instead of the disk. Some may be
     // null.
     std::vector<std::shared_ptr<const std::map<std::filesystem::path, std::string>>> texts = {};
 };

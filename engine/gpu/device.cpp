@@ -243,7 +243,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options, Log
         if (std::error_code ignored; std::filesystem::exists(impl.pipeline_cache_file, ignored))
             if (auto bytes = read_file(impl.pipeline_cache_file)) cached = std::move(*bytes);
     }
-    // The driver checks the header (vendor, device, UUID) and ignores what is not its own.
+    // The driver checks the header (vendor, device, UUID) and ignores data of other drivers.
     const VkPipelineCacheCreateInfo cache_info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
                                                .initialDataSize = cached.size(),
                                                .pInitialData = cached.data()};

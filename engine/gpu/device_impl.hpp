@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to gpu/: what a Device keeps besides its handles, and the state of a command list.
+// Private to gpu/: a Device's state besides its handles, and the state of a command list.
 #pragma once
 
 #include "gpu/device.hpp"

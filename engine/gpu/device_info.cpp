@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties and features of a physical device, and what is missing, in words.
+// Properties and features of a physical device, and descriptions of missing ones.
 #include "gpu/instance.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logical layout of a module is fixed (SPIR-V 1.6, 2.4): capabilities come first, execution modes right behind the
-// entry points. So two insertions suffice, and the disk cache is the same for every device.
+// The logical layout of a module is fixed (SPIR-V 1.6, 2.4): capabilities come first, execution modes directly after
+// the entry points. So two insertions suffice, and the disk cache is the same for every device.
 #include "gpu/float_controls.hpp"
 
 namespace restage::gpu {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to gpu/: a VkInstance with its validation messages, what each of its devices can do, and driver settings.
+// Private to gpu/: a VkInstance with its validation messages, the capabilities of its devices, and driver settings.
 #pragma once
 
 #include "base/log.hpp"

@@ -56,7 +56,7 @@ class ComputePipeline : public Pipeline {
                                           std::span<const SpecConstant> constants, const char* name);
 };
 
-// One kind of surface: what runs at the closest hit, and (nullptr: nothing) at every candidate hit that is not opaque.
+// One kind of surface: the shaders for the closest hit, and (nullptr: none) for every non-opaque candidate hit.
 struct HitGroup {
     const Spirv* closest_hit = nullptr;
     const Spirv* any_hit = nullptr;

@@ -17,7 +17,7 @@ namespace restage::gpu {
 
 namespace {
 
-// Everything under our control that a driver's code depends on.
+// Everything under our control that the driver's generated code depends on.
 std::uint64_t identity(const std::vector<Spirv>& shaders, const std::vector<SpecConstant>& constants,
                        const DeviceInfo& info) {
     std::uint64_t hash = hash64(info.uuid.data(), info.uuid.size());

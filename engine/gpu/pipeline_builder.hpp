@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds pipelines on worker threads while other work runs, from GLSL to one whose first dispatch does not stall.
-// A CPU driver (lavapipe) compiles at the first dispatch, on the queue where everything else waits. There a worker
-// first creates the pipeline on a Vulkan device of its own and dispatches nothing with it: the code lands in the
-// driver's disk cache, and the main device only fetches it.
+// A CPU driver (lavapipe) compiles at the first dispatch, on the queue where everything else waits. So a worker
+// first creates the pipeline on a separate Vulkan device and dispatches nothing with it: the code is stored in the
+// driver's disk cache, and the main device only loads it.
 #pragma once
 
 #include "base/crash_note.hpp"
@@ -23,7 +23,7 @@ struct ComputeRequest {
     std::uint32_t push_constant_bytes = 0;
     std::vector<SpecConstant> constants;
     std::string name;
-    Blame blame = {}; // for a crash while this is built
+    Blame blame = {}; // for crash notes while this is built
     std::stop_token stop; // checked between steps; a step in progress (a second or two at worst) completes first
 };
 

@@ -21,10 +21,10 @@ const char* name_key() {
     return std::is_same_v<T, Instance> ? "object" : kind_name<T>;
 }
 
-// f(Id<T>) for the handle of a kind; false: there is no such kind.
+// f(Id<T>) for a handle of a kind; false if there is no such kind.
 template <class F>
 bool with_kind(std::uint32_t kind, RestageHandle handle, F&& f) {
-    // RestageKind has the order of scene::kinds.
+    // RestageKind is in the order of scene::kinds.
     static_assert(RESTAGE_KIND_MESH == 1 && RESTAGE_KIND_CAMERA == std::tuple_size_v<decltype(kinds)>);
     std::uint32_t next = RESTAGE_KIND_MESH;
     bool found = false;
@@ -49,7 +49,7 @@ int EditWriter::take(const std::string& what, Result<Edit> edit) {
         refuse(what, edit.error().message);
         return 0;
     }
-    // A slot that is new and empty has no place in an edit.
+    // Edits contain no new empty slots.
     bool lost = false;
     for (const AnyChange& change : edit->changes)
         std::visit(
@@ -60,7 +60,7 @@ int EditWriter::take(const std::string& what, Result<Edit> edit) {
             },
             change);
     if (lost) {
-        refuse(what, "this run has made it: it cannot remove it again");
+        refuse(what, "it was added by this run, and cannot be removed again");
         return 0;
     }
     apply(scene, *edit);
@@ -74,7 +74,7 @@ struct EditWriter::EditCalls : SceneWriter::Calls {
                                               [&](SceneWriter& w) { return f(static_cast<EditWriter&>(w)); });
     }
 
-    // What the reader says of an object that shines by its material is no emission of its own.
+    // The emission that the reader reports for an object with an emissive material is not its own.
     static RestageHandle add_instance(void* ctx, const RestageInstance* given) {
         RestageInstance in = plugin::sized(*given);
         if (in.flags & RESTAGE_INSTANCE_EMITS_BY_MATERIAL)
@@ -132,7 +132,7 @@ struct EditWriter::EditCalls : SceneWriter::Calls {
             const RestageValue in = plugin::sized(*given);
             const bool material = kind == RESTAGE_KIND_MATERIAL;
             if (!material && kind != RESTAGE_KIND_TEXTURE) {
-                w.refuse("parameter", "only materials and textures have some, not kind " + std::to_string(kind));
+                w.refuse("parameter", "only materials and textures have values, not kind " + std::to_string(kind));
                 return 0;
             }
             const std::string who = material ? w.called(Id<Material>{handle}) : w.called(Id<Texture>{handle});
@@ -143,7 +143,7 @@ struct EditWriter::EditCalls : SceneWriter::Calls {
                                                           : scene::set_param(w.scene, Id<Texture>{handle}, id, value));
         });
     }
-    // Whole, but for its name and origin.
+    // Everything except its name and origin.
     template <class T, class Given>
     static int set_whole(void* ctx, const char* what, RestageHandle handle, const Given* given) {
         return changed(ctx, what, [&](EditWriter& w) {
@@ -223,7 +223,7 @@ struct EditWriter::EditCalls : SceneWriter::Calls {
 EditWriter::EditWriter(const Scene& base, const plugin::Registry& registry, Progress progress)
     : SceneWriter(registry, std::move(progress)), base_(base) {
     scene = base;
-    ++scene.clock; // what is pushed from now on is newer than the base
+    ++scene.clock; // things pushed from now on are newer than the base
     each_table(scene, [&]<class T>(const Table<T>& things) {
         auto& taken = names_[name_key<T>()];
         things.each([&](Id<T>, const T& item) { taken.insert(item.name); });
@@ -258,7 +258,7 @@ EditWriter::EditWriter(const Scene& base, const plugin::Registry& registry, Prog
 }
 
 std::uint64_t EditWriter::changes() const {
-    std::uint64_t sum = scene.clock; // of builders, and of what was pushed
+    std::uint64_t sum = scene.clock; // of builders and of pushed things
     each_table(scene, [&](const auto& table) { sum += table.size(); });
     return sum;
 }

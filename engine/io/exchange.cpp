@@ -38,9 +38,9 @@ bool Exchange::proceed(float done, const char* what) {
 }
 
 std::string Exchange::how_stopped() const {
-    constexpr std::size_t patience = 100; // several threads may be on their way
+    constexpr std::size_t patience = 100; // several threads may be calling
     return ": stopped on request" +
-           (unheard_ <= patience ? "" : "; the plugin went on and asked " + std::to_string(unheard_) + " times more");
+           (unheard_ <= patience ? "" : "; the plugin continued, with " + std::to_string(unheard_) + " more calls");
 }
 
 glm::dmat4 matrix(const double m[16]) {

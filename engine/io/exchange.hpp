@@ -17,7 +17,7 @@ class Exchange {
   public:
     const std::string& error() const { return error_; } // "file:line:column: message"; "" = none raised
     bool cancelled() const { return cancelled_; }
-    // ": stopped on request", and of a plugin that does not listen that it went on: `restage check` looks for it.
+    // ": stopped on request", and that the plugin continued if it did, which `restage check` looks for.
     std::string how_stopped() const;
 
     Report report;
@@ -53,7 +53,7 @@ class Exchange {
     Progress progress_;
     std::string error_;
     bool cancelled_ = false;
-    std::size_t unheard_ = 0; // calls of progress after the first that said stop
+    std::size_t unheard_ = 0; // calls of progress after the first that returned false
 };
 
 inline std::string text(const char* c) { return c ? c : ""; }

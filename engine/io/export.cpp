@@ -65,7 +65,7 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     note.reset();
     if (reader.cancelled()) return cancelled(path + reader.how_stopped());
     if (!reader.error().empty()) return fail(reader.error());
-    if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" gave up and did not say why");
+    if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" failed without giving a reason");
     return std::move(reader.report);
 }
 

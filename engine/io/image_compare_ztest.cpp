@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The z-test over blocks of luminance: are two pictures equal up to their known noise?
+// The z-test over blocks of luminance: whether two pictures are equal up to their known noise.
 
 #include "io/image_compare.hpp"
 

@@ -18,7 +18,7 @@ namespace restage::io {
 
 namespace {
 
-constexpr std::uint64_t max_extent = 1u << 17;       // texels a side
+constexpr std::uint64_t max_extent = 1u << 17;       // texels per side
 constexpr std::uint64_t max_texels = 1ull << 28;     // 16384 x 16384; 4 GiB as float RGBA
 constexpr std::uint64_t most_image_bytes = 5ull << 30; // max_texels as plain float RGBA, and a gigabyte of names
 constexpr const char* out_of_memory =
@@ -147,8 +147,9 @@ Result<> check_image_size(std::uint64_t width, std::uint64_t height, std::uint64
                           std::uint64_t most_texels_per_byte) {
     if (width == 0 || height == 0) return fail(fmt::format("the header says {} x {}: no pixels", width, height));
     if (width > max_extent || height > max_extent || width * height > max_texels)
-        return fail(fmt::format("the header says {} x {} pixels, more than this program holds ({} in total, {} a side)",
-                                width, height, max_texels, max_extent));
+        return fail(
+            fmt::format("the header says {} x {} pixels, more than this program holds ({} in total, {} per side)",
+                        width, height, max_texels, max_extent));
     if (most_texels_per_byte > 0 && width * height > file_size * most_texels_per_byte)
         return fail(
             fmt::format("the header says {} x {} pixels, but the file has only {} bytes", width, height, file_size));

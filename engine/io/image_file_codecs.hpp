@@ -33,7 +33,7 @@ bool is_png(std::string_view bytes);
 Result<DecodedImage> decode_png(std::string_view bytes, bool header_only);
 bool is_jpeg(std::string_view bytes);
 Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only);
-// 1 or 3 channels of 8 bits; up to 65500 pixels a side.
+// 1 or 3 channels of 8 bits; up to 65500 pixels per side.
 Result<std::string> encode_jpeg(std::uint32_t width, std::uint32_t height, int channels, int quality,
                                 const std::vector<std::uint8_t>& values);
 bool is_webp(std::string_view bytes);

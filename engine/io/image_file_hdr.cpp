@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance HDR (RGBE): reading. Both run-length codings and plain texels; EXPOSURE lines are ignored, as in pbrt.
-// (stb_image's reader loops for ever on files that end early.) G. Ward, "Real Pixels", Graphics Gems II, 1991.
+// (stb_image's reader loops forever on truncated files.) G. Ward, "Real Pixels", Graphics Gems II, 1991.
 
 #include "io/image_file_codecs.hpp"
 

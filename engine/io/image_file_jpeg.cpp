@@ -129,7 +129,7 @@ Result<DecodedImage> decode_jpeg(std::string_view bytes, bool header_only) {
     std::vector<std::uint8_t> values;
     if (!decoder.read_rows(values)) return decoder.problem(bytes.size());
     if (decoder.errors.manager.num_warnings > 0)
-        image.warning = fmt::format("JPEG: {}; the picture is shown as far as decoded", decoder.errors.message);
+        image.warning = fmt::format("JPEG: {}; the part decoded so far is shown", decoder.errors.message);
     image.values = cmyk ? cmyk_to_rgb(values, jpeg.saw_Adobe_marker != 0) : std::move(values);
     return image;
 }
@@ -164,7 +164,7 @@ struct Encoder {
         jpeg.in_color_space = channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
         jpeg_set_defaults(&jpeg);
         jpeg_set_quality(&jpeg, quality, TRUE);
-        for (int c = 0; c < jpeg.num_components; ++c) // colour as sharp as brightness
+        for (int c = 0; c < jpeg.num_components; ++c) // no chroma subsampling
             jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
         jpeg_start_compress(&jpeg, TRUE);
         while (jpeg.next_scanline < height) {

@@ -58,7 +58,7 @@ Result<DecodedImage> decode_pfm(std::string_view bytes, bool header_only) {
     const std::size_t row = std::size_t{width} * image.channels;
     const std::size_t wanted = row * height * sizeof(float);
     if (bytes.size() < at || bytes.size() - at < wanted)
-        return fail(fmt::format("truncated: {} bytes of pixels promised, {} found", wanted,
+        return fail(fmt::format("truncated: {} bytes of pixels declared, {} found", wanted,
                                 bytes.size() < at ? 0 : bytes.size() - at));
     std::vector<float> values(row * height);
     for (std::size_t y = 0; y < height; ++y)

@@ -86,7 +86,7 @@ Result<ImportedScene> import_scene(const std::string& path, const plugin::Regist
     note.reset();
     if (writer.cancelled()) return cancelled(path + writer.how_stopped());
     if (!writer.error().empty()) return fail(writer.error());
-    if (!loaded) return fail(path + ": importer \"" + importer->format + "\" gave up and did not say why");
+    if (!loaded) return fail(path + ": importer \"" + importer->format + "\" failed without giving a reason");
     std::optional<Jobs> own;
     Jobs& jobs = options.jobs ? *options.jobs : own.emplace();
     if (auto finished = writer.finish(jobs, options.read_images); !finished) return fail(path, finished.error());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene has from the tables of its material plugins: files that materials look up (restage/table.h), tried as it
-// is opened (what cannot be read shows as grey, and the report says so), and values that fit.
+// Tables of a scene's material plugins: their files (restage/table.h) are read when the scene is opened (a material
+// with an unreadable one is shown as grey, and reported), and values are checked against them.
 #pragma once
 
 #include "io/report.hpp"
@@ -14,8 +14,8 @@ namespace restage::io {
 void report_tables(const scene::Scene& scene, const plugin::Registry& registry, Report& report,
                    const scene::Scene* already = nullptr);
 
-// Sets a parameter, held to the table of the material's plugin: type, range, choices. Unknown ids are refused; a
-// material whose plugin is missing takes any.
+// Sets a parameter, checked against the table of the material's plugin: type, range, choices. Unknown ids are refused;
+// a material whose plugin is missing accepts any.
 Result<scene::Edit> param_edit(const scene::Scene&, const plugin::Registry&, scene::Id<scene::Material>,
                                std::string_view param, scene::Value);
 

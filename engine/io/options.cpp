@@ -29,7 +29,7 @@ std::string known_options(model::ParamTable table) {
     std::string list;
     for (const model::Param& option : table)
         list += (list.empty() ? "" : ", ") + option.id + "=" + range_text(option);
-    return list.empty() ? "it has no options" : "there are: " + list;
+    return list.empty() ? "it has no options" : "known: " + list;
 }
 
 std::string called(const model::Importer& importer) { return "importer \"" + importer.format + "\""; }
@@ -41,7 +41,7 @@ struct Assignment {
 Result<Assignment> split(const std::string& assignment) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
-        return fail("\"" + assignment + "\" is no option; write name=value");
+        return fail("\"" + assignment + "\" is not an option; write name=value");
     return Assignment{assignment.substr(0, equals), assignment.substr(equals + 1)};
 }
 

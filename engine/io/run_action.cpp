@@ -16,7 +16,7 @@ using namespace scene;
 
 namespace {
 
-// "Scatter: failed and gave no reason": the user cannot mend that.
+// "Scatter: failed without giving a reason": the user cannot fix that.
 std::string fault(const plugin::ActionEntry& entry, std::string_view what, const std::string& detail = {}) {
     const std::string& version = entry.plugin->manifest.version;
     return entry.table->label + ": " + std::string(what) + (detail.empty() ? "" : ": " + detail) +
@@ -30,7 +30,7 @@ std::string fault(const plugin::ActionEntry& entry, std::string_view what, const
 std::string new_error(const Scene& before, const Scene& after) {
     auto now = validate(after);
     std::erase_if(now, [](const Problem& p) { return p.severity != Problem::Severity::error; });
-    if (now.empty()) return ""; // as almost always: what was there before does not matter
+    if (now.empty()) return ""; // the usual case; the old value is irrelevant
     const auto old = validate(before);
     for (const Problem& p : now)
         if (std::ranges::find(old, p) == old.end()) return p.sentence;
@@ -53,13 +53,13 @@ Result<> check_action_run(const Scene& scene, const model::Action& action, const
             for (const model::Param& p : action.params)
                 known += (known.empty() ? "" : ", ") + p.id;
             return fail(who + "there is no parameter \"" + id + "\"; " +
-                        (known.empty() ? "it has none" : "there are: " + known));
+                        (known.empty() ? "it has no parameters" : "known: " + known));
         }
         if (const std::string why = misfit(*line, value); !why.empty())
             return fail(who + "parameter \"" + id + "\"" + why);
         if ((value.texture && !scene.textures.find(value.texture)) ||
             (value.material && !scene.materials.find(value.material)))
-            return fail(who + "parameter \"" + id + "\" refers to what does not exist");
+            return fail(who + "parameter \"" + id + "\" refers to something that does not exist");
     }
     return {};
 }

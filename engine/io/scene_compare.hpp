@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Do two scenes describe the same picture? Names, ids, order, file locations and splitting of an object into
+// Whether two scenes describe the same picture. Names, ids, order, file locations and splitting of an object into
 // single-member groups do not count unless requested; geometry, materials as rendered, places, lights, camera and
 // film do.
 #pragma once

@@ -272,7 +272,7 @@ struct SceneReader::Calls {
         return true;
     }
 
-    // The part the caller knows.
+    // Fills the members that the caller knows.
     template <class T>
     static int get(void* ctx, RestageHandle handle, T* out) {
         return guarded<SceneReader>(ctx, "an item of the scene", [&](SceneReader& r) {

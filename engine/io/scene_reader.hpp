@@ -21,7 +21,7 @@ std::vector<RestageValue> give_values(const scene::ParamSet& params);
 
 class SceneReader : public Exchange {
   public:
-    // `registry`: tells which materials emit.
+    // `registry`: to find the materials that emit.
     SceneReader(const scene::Scene&, const plugin::Registry& registry, Progress);
 
     const RestageSceneReader1& table() const { return table_; } // its ctx is this

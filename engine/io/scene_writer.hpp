@@ -30,7 +30,7 @@ class SceneWriter : public Exchange {
 
     const RestageSceneWriter1& table() const { return table_; } // its ctx is this
 
-    void set_options(scene::ParamSet); // that the importer finds in its table; before load
+    void set_options(scene::ParamSet); // passed to the importer; call before load
 
     // Names unnamed items, adds a camera if there is none, decodes images, validates. Call once, after load.
     Result<> finish(Jobs&, bool read_images);
@@ -48,7 +48,7 @@ class SceneWriter : public Exchange {
     std::string unique_name(const char* kind, const std::string& wanted);
     scene::Origin origin(const RestageOrigin*);
     scene::ParamSet params(const RestageValue*, std::uint32_t count, const std::string& who);
-    // As the engine has them, without a name that is unique; nullopt: refused.
+    // Converted to the engine's types, before the name is made unique; nullopt: refused.
     std::optional<scene::Light> read(const RestageLight&);
     std::optional<scene::Camera> read(const RestageCamera&);
     void read_images(Jobs&, scene::Version newer_than = 0);

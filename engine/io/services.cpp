@@ -15,7 +15,7 @@ namespace restage::io {
 
 namespace {
 
-struct Lent { // what a plugin holds until it releases it
+struct Lent { // owned by a plugin until it calls release()
     Result<DecodedImage> image = fail("");
     std::string problem;
 };
@@ -48,7 +48,7 @@ int decode(const RestageHost*, const void* bytes, std::uint64_t length, const ch
         given.owner = lent.release(); // release() deletes it
         plugin::give(out, given);
         return done;
-    } catch (const std::exception&) { // no memory: what was given above stays
+    } catch (const std::exception&) { // out of memory: the fields set above remain
         return 0;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services for plugins that io/ implements: plugin/ is below and knows their ids only.
+// Plugin services that io/ implements: plugin/, a lower layer, knows only their ids.
 #pragma once
 
 #include "plugin/registry.hpp"
@@ -11,7 +11,7 @@ namespace restage::io {
 // "restage.image/1"
 std::span<const plugin::HostService> services();
 
-// The options of a registry whose plugins may ask for them, as every program's may.
+// Options for a registry that offers these services to its plugins, as every program does.
 inline plugin::RegistryOptions with_services(plugin::RegistryOptions options = {}) {
     options.services = services();
     return options;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t most_suns = 16;
 constexpr std::uint32_t least_width = 512, most_width = 2048;
 constexpr double least_texels = 4; // under a sun's disk
-constexpr std::size_t guard = 64; // floats behind the picture that nobody may touch
+constexpr std::size_t guard = 64; // guard floats after the picture that must stay unchanged
 constexpr float guard_value = -12345.5f;
 
 struct Job { // behind RestageSkyJob1::ctx
@@ -42,7 +42,7 @@ struct Job { // behind RestageSkyJob1::ctx
         const RestageSkySun in = given ? plugin::sized(*given) : RestageSkySun{};
         const glm::dvec3 direction(in.direction[0], in.direction[1], in.direction[2]);
         if (!(std::abs(glm::length(direction) - 1) < 1e-3))
-            job.bad_sun = fmt::format("a sun's direction ({:g}, {:g}, {:g}) is not of length 1", direction.x,
+            job.bad_sun = fmt::format("a sun's direction ({:g}, {:g}, {:g}) is not a unit vector", direction.x,
                                       direction.y, direction.z);
         else if (!(in.angular_radius > 0 && in.angular_radius <= float(std::numbers::pi / 2)))
             job.bad_sun = fmt::format("a sun's angular radius is {:g}", in.angular_radius);
@@ -57,7 +57,7 @@ struct Job { // behind RestageSkyJob1::ctx
     }
     static void on_error(void* ctx, const char* message) {
         Job& job = self(ctx);
-        if (job.error.empty()) job.error = message && *message ? message : "it does not say why";
+        if (job.error.empty()) job.error = message && *message ? message : "no reason given";
     }
 };
 
@@ -76,7 +76,7 @@ Result<> check_sky_value(const model::Sky& sky, std::string_view id, const Value
         std::string known;
         for (const model::Param& p : sky.params)
             known += (known.empty() ? "" : ", ") + p.id;
-        return fail(who + " is not one of it; there are: " + known);
+        return fail(who + " is unknown; known: " + known);
     }
     if (const std::string why = misfit(*line, value); !why.empty()) return fail(who + why);
     return {};
@@ -110,11 +110,11 @@ Result<SkyPicture> sky_picture(const plugin::SkyEntry& sky, const ParamSet& valu
     }
     if (job.stopped) return cancelled(who + ": stopped on request");
     if (!job.error.empty()) return fail(who + ": " + job.error);
-    if (!made) return fail(who + " gave up and did not say why");
+    if (!made) return fail(who + " failed without giving a reason");
     if (!job.bad_sun.empty()) return fail(who + ": " + job.bad_sun);
     if (std::ranges::any_of(out.pixels.values.begin() + std::ptrdiff_t(numbers), out.pixels.values.end(),
                             [](float x) { return x != guard_value; }))
-        return fail(fmt::format("{} writes behind the end of its picture, {}x{}", who, width, width));
+        return fail(fmt::format("{} writes past the end of its picture, {}x{}", who, width, width));
     out.pixels.values.resize(numbers);
     for (std::size_t i = 0; i < out.pixels.values.size(); ++i)
         if (const float x = out.pixels.values[i]; !std::isfinite(x) || x < 0)
@@ -146,9 +146,9 @@ void make_missing_sky(Scene& scene, const plugin::Registry& registry, Report& re
     if (!environment || environment->sky.empty() || environment->image) return;
     const std::string who = "sky \"" + environment->sky + "\"";
     const auto sky = find_sky(registry, environment->sky);
-    if (!sky) return report.add(Fate::approximated, who, "no plugin makes it; it is one colour");
+    if (!sky) return report.add(Fate::approximated, who, "its plugin is missing; it is a single colour");
     auto pixels = make_sky(*sky, environment->sky_params, progress);
-    if (!pixels) return report.add(Fate::approximated, who, pixels.error().message + "; it is one colour");
+    if (!pixels) return report.add(Fate::approximated, who, pixels.error().message + "; it is a single colour");
     environment->image = scene.images.next();
     environment->mapping = scene::Mapping::octahedral;
     scene.images.set(environment->image,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sky plugin's parameters become pixels (restage/sky.h): the picture it makes, with its suns drawn into it. The same
-// values give the same pixels, so that projects keep the values only. [any]
+// Generates the image of a sky plugin from its parameters (restage/sky.h), with its suns drawn into it. The same values
+// give the same pixels, so that projects store only the values. [any]
 #pragma once
 
 #include "base/result.hpp"
@@ -18,10 +18,10 @@ namespace restage::io {
 
 std::optional<plugin::SkyEntry> find_sky(const plugin::Registry&, std::string_view type);
 
-// The value as the sky's table has it. Refused: an id that it has not, a value that does not fit.
+// The value converted to the type in the sky's table. Refused: unknown ids and invalid values.
 Result<> check_sky_value(const model::Sky&, std::string_view id, const scene::Value&);
 
-// What the plugin gives for one width: texels judged to be finite and not negative, suns to be whole.
+// The plugin's output for one width, checked: texels are finite and not negative, suns are valid.
 struct SkyPicture {
     scene::PixelData pixels; // square, equal-area octahedral
     std::vector<Sun> suns;
@@ -29,12 +29,12 @@ struct SkyPicture {
 Result<SkyPicture> sky_picture(const plugin::SkyEntry&, const scene::ParamSet& values, std::uint32_t width,
                                const Progress& = {});
 
-// The whole sky. Values that the table does not have are passed over, missing ones have its defaults. The picture is
-// 512 texels wide, or twice or four times that where its smallest sun would cover fewer than four texels.
+// The complete sky. Values that are not in the table are ignored, missing ones take their defaults. The image is 512
+// texels wide, or two or four times that if its smallest sun would cover fewer than four texels.
 Result<std::shared_ptr<const scene::PixelData>> make_sky(const plugin::SkyEntry&, const scene::ParamSet& values,
                                                          const Progress& = {});
 
-// Makes the image of an environment that names a sky and has none, or says in the report why it cannot be.
+// Generates the image of an environment that names a sky but has no image, or reports why that is impossible.
 void make_missing_sky(scene::Scene&, const plugin::Registry&, Report&, const Progress& = {});
 
 } // namespace restage::io

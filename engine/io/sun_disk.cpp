@@ -11,10 +11,10 @@ namespace restage::io {
 
 namespace {
 
-constexpr int sub = 16; // points a texel and axis at which coverage is asked
+constexpr int sub = 16; // samples of coverage per texel and axis
 
-// Clarberg's map stretches no length by more than this: sqrt(4 pi) for equal area, sqrt(2) by which the concentric disk
-// is stretched along the horizon, 1.3 for the disk in the square. [rad a unit of the square]
+// Upper bound on the stretch of lengths by Clarberg's map: sqrt(4 pi) for equal area, sqrt(2) for the concentric disk
+// along the horizon, 1.3 for the disk in the square. [rad per unit of the square]
 constexpr double most_stretch = 6.6;
 
 struct Covered {
@@ -26,7 +26,7 @@ class Search {
   public:
     Search(std::uint32_t width, const Sun& sun) : width_(width), sun_(sun) {}
 
-    // Texels [x, x + size) x [y, y + size), halved until they are one texel or too far away.
+    // Texels [x, x + size) x [y, y + size), subdivided down to single texels, unless too far away.
     void look(std::uint32_t x, std::uint32_t y, std::uint32_t size) {
         if (x >= width_ || y >= width_) return;
         const glm::dvec3 middle = octahedral_direction(width_, x + 0.5 * size, y + 0.5 * size);
@@ -39,7 +39,7 @@ class Search {
     std::vector<Covered> found;
 
   private:
-    double angle(const glm::dvec3& w) const { // acos is coarse near 0
+    double angle(const glm::dvec3& w) const { // acos is imprecise near 0
         return std::atan2(glm::length(glm::cross(w, sun_.direction)), glm::dot(w, sun_.direction));
     }
     void cover(std::uint32_t x, std::uint32_t y) {
@@ -84,7 +84,7 @@ void draw_sun(scene::PixelData& picture, const Sun& sun) {
         size *= 2;
     Search search(picture.width, sun);
     search.look(0, 0, size);
-    if (search.found.empty()) // it lies between the points of all of them
+    if (search.found.empty()) // it lies between the samples of all of them
         search.found.push_back({nearest_texel(picture.width, sun.direction), 1});
     double covered = 0;
     for (const Covered& c : search.found)

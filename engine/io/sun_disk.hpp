@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawing a sun into a picture of all directions: texels get the share of the disk that they cover, and their sum is
-// the disk's energy, radiance times solid angle, however coarse the picture is.
+// Draws a sun into an environment image: texels get the part of the disk that they cover, and their sum is the disk's
+// energy, radiance times solid angle, at any resolution.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -16,12 +16,12 @@ struct Sun {
 };
 
 double solid_angle(const Sun&); // [sr]
-// Of a point of an equal-area octahedral picture, in texels: restage_sky_direction().
+// The direction of a point of an equal-area octahedral image, in texels: restage_sky_direction().
 glm::dvec3 octahedral_direction(std::uint32_t width, double x, double y);
 // `picture`: square, equal-area octahedral, 3 channels.
 void draw_sun(scene::PixelData& picture, const Sun&);
 
-// The picture with each block of texels averaged; equal areas, so the light is the same. As it is where it is no wider.
+// Averages blocks of texels; texels have equal areas, so the energy is preserved. Unchanged if it is not wider.
 scene::PixelData coarse_sky(const scene::PixelData& picture, std::uint32_t width);
 
 } // namespace restage::io

@@ -22,7 +22,7 @@ struct Action {
 struct Panel {
     std::string id; // "scatter"; unique over all plugins
     std::string label; // of its tab
-    std::vector<Param> params; // of its widgets; no document state
+    std::vector<Param> params; // of its widgets; not document state
 
     const Param* find(std::string_view id_) const { return find_param(params, id_); }
     bool operator==(const Panel&) const = default;

@@ -19,7 +19,7 @@ struct Emission {
 };
 
 struct Material {
-    std::string type; // "conductor": what scene files call it; unique over all plugins
+    std::string type; // "conductor": its name in scene files; unique over all plugins
     std::string label;
     std::string prefix;    // of every GLSL name, without the underscore
     std::string glsl_file; // relative to the plugin's folder; "" for mixes and null surfaces

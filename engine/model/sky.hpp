@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sky: what a sky plugin declares: parameters that define a picture of all directions.
+// Sky: the declaration of a sky plugin: parameters from which it generates an environment image.
 #pragma once
 
 #include "model/param.hpp"

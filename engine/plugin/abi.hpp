@@ -15,7 +15,7 @@ namespace restage::plugin {
 // Bytes of a struct up to and including a member: the part common to every revision.
 #define RESTAGE_SIZE_UP_TO(type, member) (offsetof(type, member) + sizeof(type::member))
 
-// "" or why a table is too short to be read at all.
+// "" or why a table is too short to read.
 inline std::string too_short(std::uint32_t size, std::size_t needed, const char* interface_id) {
     if (size >= needed) return "";
     return std::string("its table ") + interface_id + " has " + std::to_string(size) + " bytes, " +
@@ -38,8 +38,7 @@ T element(const T* array, std::size_t i) {
     return sized(*reinterpret_cast<const T*>(reinterpret_cast<const char*>(array) + i * array->size));
 }
 
-// Fills what the caller knows: at most out->size bytes, keeping `size`. A caller that left it 0 gets
-// nothing.
+// Fills the members that the caller knows: at most out->size bytes, keeping `size`. Nothing if the caller left it 0.
 template <class T>
 void give(T* out, T value) {
     static_assert(std::is_trivially_copyable_v<T>);

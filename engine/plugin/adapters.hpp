@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From plugin declarations to the engine's model, one function per interface revision: "restage.material/2" will
-// be one more here, and nothing else in the engine will change. The functions check what reading relies on
+// add one here, and change nothing else in the engine. The functions check what reading relies on
 // (sizes, required strings); all other rules for tables are in tables.hpp. Errors are sentences about the
 // table, without the plugin's name. [main]
 #pragma once
@@ -32,7 +32,7 @@ struct MaterialAdapter {
     const char* interface_id;
     Result<model::Material> (*read)(const void* table);
 };
-// Every revision this program knows, newest first.
+// Every revision that this program supports, newest first.
 std::span<const MaterialAdapter> material_adapters();
 
 Result<model::Material> read_material1(const void* table);
@@ -44,7 +44,7 @@ struct DeclaredTexture {
 };
 Result<DeclaredTexture> read_texture1(const RestageTexture1&);
 
-// A table of the model as plugins see it. An empty table has a non-null pointer, too.
+// A table of the model in the form that plugins see. The pointer is non-null even if the table is empty.
 class GivenTable {
   public:
     explicit GivenTable(model::ParamTable);

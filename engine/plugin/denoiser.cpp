@@ -41,7 +41,7 @@ Result<> Denoiser::run(const DenoiseJob& job) const {
     out.threads = job.threads;
     struct Progress {
         const std::function<bool(double)>& keep_going;
-        std::atomic<bool> stopped{false}; // a denoiser may ask from any thread
+        std::atomic<bool> stopped{false}; // a denoiser may call it from any thread
     } progress{job.progress};
     if (job.progress) {
         out.progress_ctx = &progress;

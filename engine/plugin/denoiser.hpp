@@ -36,7 +36,7 @@ class Denoiser {
     Result<> run(const DenoiseJob& job) const; // [worker] one job at a time; a stopped job returns `cancelled`
 
     // The reason when the plugin gives none.
-    static constexpr const char* no_reason = "it gives no reason";
+    static constexpr const char* no_reason = "it gave no reason";
 
   private:
     const RestageDenoiser1* table_ = nullptr;

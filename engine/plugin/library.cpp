@@ -39,7 +39,7 @@ Library& Library::operator=(Library&& other) noexcept {
 const char* Library::extension() { return ".dll"; }
 
 Result<Library> Library::open(const std::filesystem::path& path) {
-    // The library's own folder is searched for dependencies; the current folder is not.
+    // Dependencies are searched in the library's folder, not in the current folder.
     if (HMODULE handle =
             LoadLibraryExW(path.c_str(), nullptr, LOAD_LIBRARY_SEARCH_DLL_LOAD_DIR | LOAD_LIBRARY_SEARCH_DEFAULT_DIRS))
         return Library(handle);
@@ -118,8 +118,8 @@ Result<> check_elf(const std::filesystem::path& path) {
     return {};
 }
 
-// A never-used path to an open file: dlopen() returns the already open library for a name it
-// knows, and descriptor numbers are recycled. A counter is spelled in "/." and "//", which are no-ops in a
+// A unique path to an open file: dlopen() returns the library already open under a known name,
+// and descriptor numbers are recycled. So a counter is encoded as "/." and "//", which are no-ops in a
 // path.
 std::string new_name_of(int file) {
     static std::atomic<std::uint32_t> counter{0};
@@ -139,7 +139,7 @@ Result<Library> Library::open(const std::filesystem::path& path) {
     RESTAGE_CHECK(check_elf(path));
 #endif
     if (void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);
-    const char* why = dlerror(); // begins with the path if it concerns this file
+    const char* why = dlerror(); // begins with the path if it is about this file
     const std::string text = why ? why : "unknown reason";
     return fail(text.starts_with(path.string()) ? text : path.string() + ": " + text);
 }
@@ -160,7 +160,7 @@ Result<Library> Library::open_copy(const std::filesystem::path& path) {
         if (handle) return Library(handle);
     }
 #if defined(__linux__)
-    // The temporary folder is missing, full, not writable, or mounted noexec. Use memory.
+    // The temporary folder is missing, full, not writable, or mounted noexec: use memory.
     if (const Descriptor memory(static_cast<int>(::syscall(SYS_memfd_create, "restage-plugin-copy", MFD_CLOEXEC)));
         memory.file >= 0 && write_all(memory.file, bytes))
         if (void* handle = dlopen(new_name_of(memory.file).c_str(), RTLD_NOW | RTLD_LOCAL)) return Library(handle);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t most_tables = 256; // in one library: an endless query() is a bug of the plugin
+constexpr std::uint32_t most_tables = 256; // per library: an endless query() is a bug in the plugin
 
 void host_log(const RestageHost* host, int level, const char* line) {
     const Host& self = *reinterpret_cast<const Host*>(host);
@@ -82,15 +82,15 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
         if (!fs::exists(folder / "CMakeLists.txt", code))
             return fail(library.string() +
                         ": the library is missing: the plugin is not built, or not all of it was copied");
-        // Sources: restage_add_plugin() builds elsewhere.
+        // A source folder: restage_add_plugin() builds elsewhere.
         return fail(
             library.string() +
             ": the library is missing: this folder holds the plugin's sources. Build it there, "
             "'cmake -B build -DCMAKE_PREFIX_PATH=<where Restage is installed> && cmake --build build', and use " +
             (folder / "build/lib/restage/plugins").string());
     }
-    // A library may be rebuilt while in use, so a private copy is opened. Denoisers find files
-    // beside theirs, and are opened in place.
+    // A library may be rebuilt while in use, so a private copy is opened. Denoisers are opened in place, because they
+    // load files from their own folder.
     RESTAGE_TRY(library_,
                 manifest.provides_any("restage.denoiser") ? Library::open(library) : Library::open_copy(library));
     const auto* table = static_cast<const RestagePlugin*>(library_->symbol(RESTAGE_PLUGIN_SYMBOL));
@@ -102,10 +102,10 @@ Result<> Loaded::open_library(const fs::path& folder, const Manifest& manifest, 
         return fail(library.string() + ": its entry table has " + std::to_string(table->size) + " bytes, " +
                     std::to_string(sizeof(RestagePlugin)) + " are needed: rebuild it with this SDK");
     if (!table->id || manifest.id != table->id)
-        return fail(library.string() + ": says its id is \"" + (table->id ? table->id : "") +
-                    "\", the manifest says \"" + manifest.id + "\"");
+        return fail(library.string() + ": its id is \"" + (table->id ? table->id : "") + "\", the manifest says \"" +
+                    manifest.id + "\"");
     if (!table->version || manifest.version != table->version)
-        return fail(library.string() + ": says its version is \"" + (table->version ? table->version : "") +
+        return fail(library.string() + ": its version is \"" + (table->version ? table->version : "") +
                     "\", the manifest says \"" + manifest.version + "\"");
     if (!table->query) return fail(library.string() + ": has no query function");
     host_ = {.c = {.abi = RESTAGE_ABI, .size = sizeof(RestageHost), .version = version(), .service = host_service},
@@ -157,7 +157,7 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
         if (!emission) return fail(who + ": " + emission.error().message);
         model::Material* its = of_ours(emission->material_type);
         if (!its)
-            return fail(who + ": has an emission of \"" + emission->material_type + "\", which it does not provide");
+            return fail(who + ": has an emission for \"" + emission->material_type + "\", which it does not provide");
         its->emission = std::move(emission->emission);
     }
     RESTAGE_TRY(const auto readers, tables_of(RESTAGE_TABLE1));
@@ -186,7 +186,7 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
     }
     if (declared.empty())
         return manifest.provides_any("restage.material")
-                   ? fail(who + ": provides no restage.material/1, though its manifest says so")
+                   ? fail(who + ": provides no restage.material/1, although its manifest declares it")
                    : Result<>();
     RESTAGE_TRY(const auto glsl, read_glsl(folder));
     for (std::size_t i = 0; i < declared.size(); ++i) {
@@ -203,7 +203,8 @@ Result<> Loaded::take_materials(const fs::path& folder, const Manifest& manifest
             std::ranges::find_if(table_readers, [&](const auto& r) { return r->material_type() == m.type; });
         if (has_table(m) && reader == table_readers.end())
             return fail(from + ": material \"" + m.type +
-                        "\" has a table as a parameter, and nothing reads it: " + RESTAGE_TABLE1 + " is missing");
+                        "\" has a table parameter, but the plugin provides no reader for it: " + RESTAGE_TABLE1 +
+                        " is missing");
         materials.push_back(std::make_shared<const MaterialSource>(std::move(m), folder, glsl,
                                                                    reader == table_readers.end() ? nullptr : *reader));
     }
@@ -252,7 +253,7 @@ Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) 
     const auto take = [&]<class Table>(const char* id, const Table*, auto& list, auto&& read) -> Result<> {
         if (std::ranges::find(manifest.provides, id) == manifest.provides.end()) return {};
         RESTAGE_TRY(const auto tables, query_all(*table_, id, who));
-        if (tables.empty()) return fail(who + ": provides no " + id + ", though its manifest says so");
+        if (tables.empty()) return fail(who + ": provides no " + id + ", although its manifest declares it");
         for (const void* table : tables) {
             auto item = read(static_cast<const Table*>(table));
             if (!item) return fail(who + ": " + item.error().message);

@@ -36,7 +36,7 @@ struct Host { // one per opening, so that its log lines carry the plugin's name
 class Loaded {
   public:
     // Checks, in this order: its needs, files exist, library opens, entry symbol, entry abi and size, id and
-    // version as promised, init, tables. The error is the sentence that refuses the plugin.
+    // version as in the manifest, init, tables. The error is a sentence that says why the plugin is refused.
     static Result<std::unique_ptr<Loaded>> open(const std::filesystem::path& folder, const Manifest& manifest,
                                                 const RegistryOptions& host, Log& log);
     ~Loaded();
@@ -80,7 +80,7 @@ class Loaded {
     Result<> take_materials(const std::filesystem::path& folder, const Manifest&,
                             std::span<const MaterialAdapter> adapters, Log&);
     Result<> take_textures(const std::filesystem::path& folder, const Manifest&);
-    Result<> take_formats(const Manifest&, const std::string& who); // and what else has no GLSL
+    Result<> take_formats(const Manifest&, const std::string& who); // and everything else without GLSL
 
     std::optional<Library> library_;
     Host host_{};

@@ -189,7 +189,7 @@ std::vector<std::string> Manifest::kinds() const {
     for (const std::string& provided : provides) {
         std::string name = provided.substr(0, provided.rfind('/'));
         if (name.starts_with("restage.")) name.erase(0, 8);
-        // Interfaces of a material are not a kind of their own.
+        // Interfaces that belong to a material are not a separate kind.
         if (name != "emission" && name != "table" && name != "inspector" &&
             std::find(out.begin(), out.end(), name) == out.end())
             out.push_back(std::move(name));
@@ -262,7 +262,7 @@ Result<Manifest> parse_manifest(const std::string& text, const std::string& file
         return fail(file + ": has \"materials\", but \"provides\" does not list restage.material/1");
     const bool has_textures = object.contains("textures"); // texture_json.cpp
     if (has_textures && !out.provides_any("restage.texture"))
-        return fail(file + ": has \"textures\", and \"provides\" does not list restage.texture/1");
+        return fail(file + ": has \"textures\", but \"provides\" does not list restage.texture/1");
     if (object.contains("library") || !(out.has_materials || has_textures)) {
         RESTAGE_TRY(const std::string library, text_of(object, "library", file));
         RESTAGE_TRY(out.library, inner_path(library, "library", file));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manifest of a plugin, plugin.json, read before its library is opened, so that an unfit plugin is refused with a
-// sentence. A plugin is a bundle: it states what it provides and needs. For example:
+// The manifest of a plugin, plugin.json, read before its library is opened, so that an unusable plugin is refused
+// with a reason. A plugin is a bundle: it states what it provides and needs. For example:
 //   { "id": "org.example.cloth", "version": "1.2.0", "licence": "MIT",
 //     "provides": ["restage.material/1", "restage.inspector/1", "restage.importer/1"],
 //     "needs": {"host": ">=0.2", "interfaces": ["restage.log/1"]},
@@ -8,7 +8,7 @@
 // "host" is ">=A.B", or ">=A.B <C.D". Unknown interfaces in "provides" are ignored; missing ones in
 // "needs" refuse the plugin. "library" without an extension gets the platform's. Paths are relative
 // to the manifest's folder and stay inside it. `restage check` reads "exceptions". Third-party keys begin with
-// "x-", at every level; other unknown keys are refused as typing errors. Materials without native
+// "x-", at every level; other unknown keys are refused as misspellings. Materials without native
 // code are written in the manifest, with or without a library:
 //   "materials": [{ "type": "velvet", "label": "Velvet", "prefix": "velvet", "glsl": "velvet.glsl", "tooltip":
 //   "Cloth.",
@@ -18,7 +18,7 @@
 //       "choices": ["a", "b"],                     of an enum; its default is one of them
 //       "flags": ["texturable", "advanced"] }],
 //     "emission": { "radiance": "glow", "scale": "brightness", "two_sided": "both" } }]   ids of params; see emission.h
-// and so do textures (restage/texture.h), with the same "params":
+// and likewise textures (restage/texture.h), with the same "params":
 //   "textures": [{ "type": "weave", "label": "Weave", "prefix": "weave", "glsl": "weave.glsl", "tooltip": "Threads.",
 //     "flags": ["mapped"], "params": [...] }]      image mapped site
 #pragma once
@@ -44,7 +44,7 @@ struct Manifest {
 
     // "restage.material" of any revision.
     bool provides_any(std::string_view interface_name) const;
-    // For lists: "material", "importer", ... in the order of "provides", each once.
+    // For lists: "material", "importer", ... in the order of "provides", without duplicates.
     std::vector<std::string> kinds() const;
     std::string kind() const; // "material", "importer, exporter"
 };
@@ -53,12 +53,12 @@ struct Manifest {
 Result<Manifest> parse_manifest(const std::string& text, const std::string& file);
 Result<Manifest> read_manifest(const std::filesystem::path& file);
 
-std::span<const std::string_view> known_interfaces(); // that this program can use of a plugin
+std::span<const std::string_view> known_interfaces(); // that this program can use
 struct HostOffer {
     std::string version; // of the program
-    std::vector<std::string_view> interfaces, services; // that it can use of a plugin, and that it offers to one
+    std::vector<std::string_view> interfaces, services; // that it can use or that it offers to plugins
 };
-// Does the program fulfil what the manifest needs? The error is the sentence that refuses the plugin.
+// Checks that the program meets the manifest's needs. The error is a sentence that says why the plugin is refused.
 Result<> check_needs(const Manifest&, const HostOffer&, const std::string& file);
 
 } // namespace restage::plugin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Private to plugin/: the keys of a manifest and its nested objects. A misspelt key is not ignored but reported,
-// with the key probably meant. Custom keys are named "x-...".
+// with the most similar known key. Custom keys are named "x-...".
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

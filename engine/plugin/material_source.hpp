@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MaterialSource: what the host keeps of one material: its declaration, and the text of its GLSL as it
+// MaterialSource: the host's copy of one material: its declaration, and the text of its GLSL as it
 // was when the plugin was loaded. Neither the plugin's library nor its folder is accessed while a scene
 // is rendered, so both may be replaced meanwhile, and the picture on screen continues with the old version.
 // Immutable; any thread.

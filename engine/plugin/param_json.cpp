@@ -61,7 +61,7 @@ Result<> param_default(const json& value, const std::string& where, model::Param
             if (!value.is_number()) return fail(where + " must be a number");
             p.def[0] = value.get<float>();
             return {};
-        default: // a text has none
+        default: // texts have no default
             return {};
     }
 }
@@ -75,7 +75,8 @@ Result<model::Param> param(const json& object, const std::string& where) {
     RESTAGE_TRY(const std::string type, json_text(object, "type", nullptr, where));
     if (type == "table")
         return fail(where +
-                    ": a table is read by native code (restage/table.h), which tables of a manifest do not have");
+                    ": a table parameter needs native code to read it (restage/table.h), which parameters in a "
+                    "manifest do not have");
     RESTAGE_TRY(p.type, look_up(type_words, type, where + ": \"type\""));
     RESTAGE_CHECK(json_flags(object, param_flag_words, where, p));
     if (p.type == ParamType::integer) {
@@ -92,7 +93,7 @@ Result<model::Param> param(const json& object, const std::string& where) {
     RESTAGE_TRY(p.tooltip, json_text(object, "tooltip", "", where));
     if (const auto it = object.find("choices"); it != object.end()) {
         if (!it->is_array() || p.type != ParamType::choice)
-            return fail(where + ": \"choices\" is a list of words, of an enum");
+            return fail(where + ": \"choices\" is only for an enum, a list of words");
         for (const json& word : *it) {
             if (!word.is_string()) return fail(where + ": \"choices\" must be a list of words");
             p.choices.push_back(word.get<std::string>());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to plugin/: tables written as JSON, what those of materials and textures have in common. `where` begins every
+// Private to plugin/: the common part of materials' and textures' tables written as JSON. `where` begins every
 // message: 'plugin.json: "materials"[0]'.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Word {
     T value;
 };
 
-// The value of a word, or the sentence that lists what there is.
+// The value of a word, or an error that lists the known words.
 template <class T, std::size_t n>
 Result<T> look_up(const Word<T> (&words)[n], const std::string& name, const std::string& where) {
     std::string known;
@@ -32,9 +32,9 @@ Result<T> look_up(const Word<T> (&words)[n], const std::string& name, const std:
     return fail(where + ": \"" + name + "\" is unknown; known: " + known);
 }
 
-// Every key is known: a typing error is not passed over.
+// Checks that every key is known, so that misspellings are reported.
 Result<> know(const nlohmann::json& object, std::initializer_list<std::string_view> keys, const std::string& where);
-// `otherwise`: where the key is not there; null: it must be.
+// `otherwise`: the value if the key is missing; null: it is required.
 Result<std::string> json_text(const nlohmann::json& object, const char* key, const char* otherwise,
                               const std::string& where);
 
@@ -51,11 +51,11 @@ Result<> json_flags(const nlohmann::json& object, const Word<bool T::*> (&words)
     return {};
 }
 
-// "params" of the object; none where it has none.
+// "params" of the object; empty if it has none.
 Result<std::vector<model::Param>> json_params(const nlohmann::json& object, const std::string& where);
 
-// The tables of one kind in a manifest's text: each element of the list `key`, read by `read(object, where)`. No key:
-// none.
+// The tables of one kind in a manifest's text: each element of the list `key`, read by `read(object, where)`. Empty if
+// there is no such key.
 template <class Table, class Read>
 Result<std::vector<Table>> json_tables(const std::string& text, const std::string& file, const std::string& key,
                                        Read&& read) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plugin provides, for lists that people read.
+// What a plugin provides, as text for lists.
 #pragma once
 
 #include "plugin/registry.hpp"

@@ -20,8 +20,8 @@ class Quarantine {
     std::string note_of(const std::string& id) const;
     // The file's content: what the plugin was doing, and the stamp of its files.
     static std::string note(const std::string& doing, std::uint64_t stamp);
-    // Why it is quarantined: "it crashed (SIGSEGV) while it was being loaded". nullopt if it is not, or if its
-    // files have another stamp now: then it is released.
+    // Why it is quarantined: "it crashed (SIGSEGV) while it was being loaded". nullopt if it is not, or if the stamp of
+    // its files has changed: then it is released.
     std::optional<std::string> reason(const std::string& id, std::uint64_t stamp) const;
     Result<bool> release(const std::string& id) const; // true if it was quarantined
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finding plugins, and keeping the lists of what they provide. loaded.cpp validates plugins.
+// Finds plugins, and keeps the lists of what they provide. loaded.cpp validates plugins.
 #include "plugin/registry.hpp"
 
 #include "base/file.hpp"
@@ -196,7 +196,7 @@ Result<> Registry::load(Plugin& plugin, bool judged) {
     return {};
 }
 
-// No two plugins may provide the same thing.
+// Two plugins must not provide the same thing.
 Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
     const std::string who = (plugin.entry.folder / plugin.entry.manifest.library).string();
     const auto taken = [&](std::string_view what, const Plugin& by) {
@@ -229,7 +229,7 @@ Result<> Registry::unique(const Plugin& plugin, const Loaded& loaded) const {
         for (const auto& a : loaded.textures)
             for (const auto& b : other->loaded->textures)
                 if (a->texture().type == b->texture().type) return taken(a->texture().type, *other);
-        // In a shader the code of materials and textures stands together.
+        // Materials and textures share shaders, and so one namespace for prefixes.
         const auto apart = [&](const Loaded& one, const Loaded& two) -> Result<> {
             for (const auto& a : one.textures) {
                 const auto same = [&](const auto& declared) -> Result<> {
@@ -273,7 +273,7 @@ void Registry::publish() {
         for (const auto& source : plugin->loaded->materials)
             all->materials.push_back(
                 {&source->material(), entry, entry->blame("while its GLSL was being compiled"), source});
-        for (const auto& source : plugin->loaded->textures) // with the library: its native evaluation is code of it
+        for (const auto& source : plugin->loaded->textures) // with the library, which contains its native evaluation
             all->textures.push_back({&source->texture(), entry, entry->blame("while its GLSL was being compiled"),
                                      std::shared_ptr<const TextureSource>(plugin->loaded, source.get())});
         for (const auto& reader : plugin->loaded->table_readers)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registry: finds plugins, validates and loads them, and finds their tables by id. Refused plugins stay
-// listed with the reason; nothing foreign, too new, broken or missing stops the program. Materials may be
+// listed with the reason; no broken, missing or incompatible plugin stops the program. Materials may be
 // replaced while in use (reload_changed).
 #pragma once
 
@@ -46,7 +46,7 @@ struct Entry {
     Manifest manifest; // empty if the manifest could not be read
     State state = State::refused;
     std::string reason; // why it was refused: one sentence, with the file
-    bool own = false; // came with the program
+    bool own = false; // shipped with the program
     bool quarantined = false; // refused because it crashed
     std::string crash_file; // where its crash is recorded; "" = nowhere
     std::uint64_t stamp = 0; // of its files when last checked
@@ -96,7 +96,7 @@ struct MaterialEntry {
     std::shared_ptr<const MaterialSource> source; // keeps the table alive, even after a reload
 };
 
-// Everything provided at one moment, sorted by type or format. Immutable.
+// A snapshot of everything provided, sorted by type or format. Immutable.
 struct Catalogue {
     std::vector<MaterialEntry> materials;
     std::vector<ImporterEntry> importers;
@@ -115,10 +115,10 @@ struct SearchPath {
     bool own = false;             // the program's own plugins
 };
 
-// What the host offers to plugins besides the log, from the modules above.
+// Services that the host offers to plugins besides the log, implemented by modules above this one.
 struct HostService {
     const char* id;    // "restage.image/1"
-    const void* table; // alive as long as the program
+    const void* table; // valid as long as the program runs
 };
 
 struct RegistryOptions {
@@ -150,12 +150,12 @@ class Registry {
     static std::filesystem::path default_quarantine();
     void scan(std::span<const SearchPath>); // [main] may be called again: adds what is new
 
-    // [main] Reloads plugins whose files have changed: manifest, library or GLSL. A version that does
-    // not fit, or that `judge` refuses, is rejected, and the previous one stays; parameter values live in the
+    // [main] Reloads plugins whose files have changed: manifest, library or GLSL. A version that is invalid
+    // or that `judge` refuses is rejected, and the previous one stays in use; parameter values live in the
     // scene and stay. Cheap if nothing has changed (a few stat() per plugin). Denoisers need a restart.
     std::vector<Reload> reload_changed();
     Result<> reload(const Entry& plugin); // changed or not
-    // Asked before a material or texture is taken by reload_changed: does its GLSL compile? See
+    // Called before reload_changed accepts a material or texture: checks that its GLSL compiles. See
     // render/material_composer.hpp and texture_composer.hpp.
     using Judge = std::function<Result<>(const MaterialEntry&)>;
     using TextureJudge = std::function<Result<>(const TextureEntry&)>;

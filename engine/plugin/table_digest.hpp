@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to plugin/: the revision of what is kept of a material or a texture.
+// Private to plugin/: the digest that identifies a revision of a material or a texture.
 #pragma once
 
 #include "base/file.hpp"
@@ -10,7 +10,7 @@
 
 namespace restage::plugin {
 
-// Numbers and texts of a table, one after the other: what two tables must share to be the same.
+// Numbers and texts of a table, concatenated: equal for equal tables.
 class Digest {
   public:
     void text(std::string_view t) { hash_ = hash64(t, hash_ + 1); }

@@ -52,7 +52,7 @@ int bytes(void* ctx, std::uint64_t offset, std::uint64_t count, void* out) {
     }
     const bool all = std::fread(out, 1, count, r.file.get()) == count;
     r.at = offset + count;
-    if (!all) r.refuse(0, "it cannot be read, or changed meanwhile");
+    if (!all) r.refuse(0, "it is unreadable, or changed meanwhile");
     return all;
 }
 
@@ -168,7 +168,7 @@ Result<std::shared_ptr<const Table>> TableReader::read_file(const std::string& p
     const bool done = table_->read(param.c_str(), &file) != 0;
     const std::string where = path + (r.line ? ":" + std::to_string(r.line) : "");
     if (!r.error.empty()) return fail(where + ": " + r.error);
-    if (!done) return fail(where + ": " + plugin_id_ + " refused it and did not say why");
+    if (!done) return fail(where + ": " + plugin_id_ + " refused it without giving a reason");
     return std::make_shared<const Table>(std::move(r.table));
 }
 

@@ -40,7 +40,7 @@ class TableReader {
     // known.
     std::string problem(const std::string& param, const std::string& path) const;
 
-    void set_blame(Blame blame); // for a crash while it reads
+    void set_blame(Blame blame); // for crash notes while it reads
     void close(); // before the plugin is unloaded: afterwards only cached files can be read
 
   private:

@@ -178,14 +178,14 @@ std::string check_texture(const model::Texture& t, const fs::path& folder) {
     std::size_t operands = 0;
     for (const model::Param& p : t.params) {
         const std::string param = who + ": parameter " + quote(p.id);
-        if (p.type > ParamType::text) return param + ": a texture has numbers, colours, choices and texts only";
+        if (p.type > ParamType::text) return param + ": a texture may have only numbers, colours, choices and texts";
         if (p.id == "average" || (t.image && p.id == "image") ||
             (t.mapped && find_param(model::mapping_params(), p.id)))
-            return param + " belongs to the host";
+            return param + " is reserved for the host";
         operands += p.texturable;
     }
     if (operands > most_operands)
-        return who + ": " + std::to_string(operands) + " texturable parameters; 16 are possible";
+        return who + ": " + std::to_string(operands) + " texturable parameters; the maximum is 16";
     return check_glsl(t.glsl_file, folder, who);
 }
 
@@ -207,7 +207,7 @@ std::string check_exporter(const model::Exporter& t) {
 
 namespace {
 
-// Of an action or a panel: nothing of it becomes GLSL, and nobody reads its files.
+// For an action or a panel: its parameters never reach GLSL, and it has no table files.
 std::string check_tool(const std::string& what, const std::string& id, const std::string& label,
                        model::ParamTable params) {
     if (!is_type_name(id)) return what + " without a proper id (lower case, digits, _)";
@@ -230,7 +230,7 @@ std::string check_panel(const model::Panel& p) {
     for (const model::Param& line : p.params)
         if (line.type == ParamType::material || line.type == ParamType::texture)
             return "panel " + quote(p.id) + ": parameter " + quote(line.id) +
-                   ": a panel holds no things of a document (MATERIAL, TEXTURE)";
+                   ": a panel cannot refer to things of a document (MATERIAL, TEXTURE)";
     return "";
 }
 
@@ -241,7 +241,7 @@ std::string check_sky(const model::Sky& s) {
     if (const std::string problem = check_params(s.params); !problem.empty()) return who + ": " + problem;
     for (const model::Param& p : s.params)
         if (p.texturable || p.type == ParamType::texture || p.type == ParamType::material || p.type == ParamType::table)
-            return who + ": parameter " + quote(p.id) + ": a sky sees no textures, materials or tables";
+            return who + ": parameter " + quote(p.id) + ": a sky may not have textures, materials or tables";
     return "";
 }
 

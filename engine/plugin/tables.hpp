@@ -17,7 +17,7 @@ namespace restage::plugin {
 
 bool is_glsl_identifier(std::string_view); // and not a reserved word
 bool is_taken_prefix(std::string_view);    // used by the functions that call a material's
-bool is_type_name(std::string_view);       // lower_snake, as scene files write it
+bool is_type_name(std::string_view);       // lower_snake, as in scene files
 std::string check_params(model::ParamTable);
 std::string check_material(const model::Material&, const std::filesystem::path& folder); // including its emission
 std::string check_texture(const model::Texture&, const std::filesystem::path& folder);
@@ -26,6 +26,6 @@ std::string check_exporter(const model::Exporter&);
 std::string check_action(const model::Action&);
 std::string check_panel(const model::Panel&);
 std::string check_sky(const model::Sky&);
-bool has_table(const model::Material&); // a parameter that is a table
+bool has_table(const model::Material&); // a table parameter
 
 } // namespace restage::plugin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture tables written as JSON: the same lines as RestageTexture1 and RestageParam, by name.
+// Texture tables written as JSON: the members of RestageTexture1 and RestageParam, by name.
 #include "plugin/param_json.hpp"
 #include "plugin/texture_source.hpp"
 

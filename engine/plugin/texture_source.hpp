@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TextureSource: what the host keeps of one texture type, as MaterialSource of a material. Its native evaluation is
-// code of the plugin's library, which stays open while somebody holds the source that a TextureEntry has.
+// TextureSource: the host's copy of one texture type, like MaterialSource for a material. Its native evaluation is
+// code in the plugin's library, which stays open while the source of a TextureEntry has holders.
 #pragma once
 
 #include "model/texture.hpp"
@@ -18,28 +18,28 @@ namespace restage::plugin {
 
 using TextureEval = void (*)(const RestageTextureAt1* at, float rgb[3]);
 
-// What a native evaluation is asked; see RestageTextureAt1.
+// Input of a native evaluation; see RestageTextureAt1.
 struct TextureCall {
     float uv[2]{};
     const float* values = nullptr;
     const std::int32_t* whole = nullptr;
-    const void* image = nullptr; // what look_up() is given
+    const void* image = nullptr; // argument of look_up()
     void (*look_up)(const void* image, float s, float t, int wrap, float rgba[4]) = nullptr;
 };
 
 class TextureSource {
   public:
-    // `texture` must have passed check_texture. `native`: null = it has none.
+    // `texture` must have passed check_texture. `native`: null if it has none.
     TextureSource(model::Texture texture, std::filesystem::path folder, std::shared_ptr<const FileTexts> glsl,
                   TextureEval native = nullptr);
     TextureSource(const TextureSource&) = delete;
 
-    const model::Texture& texture() const { return texture_; } // lives as long as this
+    const model::Texture& texture() const { return texture_; } // valid as long as this
     const std::filesystem::path& folder() const { return folder_; }
     const std::shared_ptr<const FileTexts>& glsl() const { return glsl_; }
     TextureEval eval() const { return eval_; }
-    void evaluate(const TextureCall&, float rgb[3]) const; // [any] only where there is eval()
-    // Equal numbers: equal declarations and equal GLSL.
+    void evaluate(const TextureCall&, float rgb[3]) const; // [any] only if there is eval()
+    // Equal numbers mean equal declarations and equal GLSL.
     std::uint64_t revision() const { return revision_; }
 
   private:
@@ -50,7 +50,7 @@ class TextureSource {
     std::uint64_t revision_ = 0;
 };
 
-// The "textures" of a manifest's text; none where it has none. Errors: 'plugin.json: "textures"[0]."params"[1]: ...'
+// The "textures" of a manifest's text; empty if it has none. Errors: 'plugin.json: "textures"[0]."params"[1]: ...'
 Result<std::vector<model::Texture>> parse_textures(const std::string& text, const std::string& file);
 
 } // namespace restage::plugin

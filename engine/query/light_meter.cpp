@@ -236,7 +236,7 @@ class Meter {
 
     double irradiance(const Hit& at, int number) const {
         const double shift = glm::fract(double(number) * 0.6180339887498949);
-        double reflected = 0, kept = 0, sky = 0; // kept: of the light, per bounce
+        double reflected = 0, kept = 0, sky = 0; // kept: fraction of the light per bounce
         const dvec3 other = std::abs(at.normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
         const dvec3 s = glm::normalize(glm::cross(at.normal, other)), t = glm::cross(at.normal, s);
         for (int i = 0; i < directions; ++i) { // cosine-distributed: each weighs pi / directions

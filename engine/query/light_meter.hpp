@@ -24,9 +24,9 @@ struct MeterQuestions { // of an instance
     glm::vec3 sky{0}; // mean radiance from all directions
 };
 
-// From the active camera, through a pinhole. Direct light of lamps and emitters, and what matte surfaces around
-// reflect of it: one bounce by rays, more extrapolated. Directions are fixed: identical for the same scene
-// except for the last bits.
+// From the active camera, through a pinhole. Direct light of lamps and emitters, and its reflection by surrounding
+// matte surfaces: one bounce by rays, more extrapolated. Directions are fixed: identical for the same scene except for
+// the last bits.
 LightReading read_light(const scene::Scene&, const MeterQuestions&);
 
 } // namespace restage::query

@@ -18,7 +18,7 @@ struct RayHit {
     glm::dvec3 normal{0}; // geometric, unit, world space, towards the ray's origin
 };
 
-// Every instance the ray meets with t > 0, nearest first, each at its first hit. Skips hidden ones and those
+// Every instance the ray hits with t > 0, nearest first, each at its first hit. Skips hidden ones and those
 // selected by `skip`.
 std::vector<RayHit> raycast_all(const scene::Scene&, const glm::dvec3& origin, const glm::dvec3& direction,
                                 const std::function<bool(scene::Id<scene::Instance>)>& skip = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Touching: finds the parts of one thing that a file stores as separate objects (a chair as four legs, a seat and a
-// cushion): what touches the selection, what touches that, and so on, excluding much larger objects (the floor).
+// cushion): objects that touch the selection, those that touch these, and so on, excluding much larger objects (the
+// floor).
 #pragma once
 
 #include "scene/scene.hpp"

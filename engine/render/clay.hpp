@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture of first hits only: the geometry as clay, lit from the camera. It needs Embree but no
-// shader, so it is available before anything is compiled; includes the guides used by picking and outlines.
+// shaders, so it is available before anything is compiled; includes the guides for picking and outlines.
 #pragma once
 
 #include "base/jobs.hpp"

@@ -46,19 +46,19 @@ void init_context(Context& c) { rtcInitRayQueryContext(&c); }
 struct QueryContext {
     Context embree; // first: the part known to Embree
     bool borders;   // query hits borders of media, not surfaces
-    bool shadow;    // query hits whatever blocks light
+    bool shadow;    // query hits surfaces that block light
     glm::vec3 origin, direction; // of the ray in world space: Embree transforms it to instance space
-    std::vector<EmbreeScene::Undecided>* undecided; // null: decide by what is known
+    std::vector<EmbreeScene::Undecided>* undecided; // null: undecidable hits are decided by averages
 };
 
-// Is the hit put aside? Then the ray goes on.
+// Whether the hit is deferred: then the ray continues.
 bool put_aside(const GpuScene& scene, const QueryContext& query, const EmbreeScene::Undecided& hit) {
     if (!query.undecided || !scene.undecided(hit.instance)) return false;
     if (!(query.shadow && (scene.instances()[hit.instance].flags & INSTANCE_PASSES))) query.undecided->push_back(hit);
     return true;
 }
 
-// The verdict of hit_filter on this hit of a world-space ray.
+// The decision of hit_filter on this hit of a world-space ray.
 bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance,
                    const GpuScene::QuadricHit& hit) {
     const auto flags = scene.instances()[instance].flags;

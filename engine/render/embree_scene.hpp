@@ -25,8 +25,8 @@ class EmbreeScene {
 
     // In place, on the kernels' memory: `ray` is a shared::RayHit, `shadow` a shared::ShadowRay. Thread-safe between
     // updates. intersect leaves inst == NONE on a miss; occluded sets tfar to -inf if blocked.
-    // Hits that no native code can decide (GpuScene::undecided) are passed and added to `undecided`, in no order;
-    // without that, textures' averages decide them.
+    // Hits that native code cannot decide (GpuScene::undecided) are passed and added to `undecided`, unordered; if it
+    // is null, the textures' averages decide them.
     struct Undecided {
         float t = 0;
         std::uint32_t instance = 0, prim = 0;

@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: cache-friendly, amortises a submit
 constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths per job
-constexpr std::size_t most_asked = 1 << 18;   // undecided hits in a submit
+constexpr std::size_t most_asked = 1 << 18;   // undecided hits per submit
 constexpr std::size_t ahead = 3; // paths prefetched: kernels left them in another cache
 constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
 
@@ -188,7 +188,7 @@ class EmbreeTracer final : public Tracer {
                !(scene.instances()[instance].flags & INSTANCE_EMITS);
     }
 
-    // Rays of one chunk that met what no native code can decide, and all those hits.
+    // Rays of one chunk with hits that native code cannot decide, and these hits.
     struct Open {
         std::uint32_t path = 0;
         bool shadow = false;
@@ -200,7 +200,7 @@ class EmbreeTracer final : public Tracer {
         std::vector<Open> open;
     };
 
-    // Light that arrives along a shadow ray whose way is free.
+    // Light that arrives along an unoccluded shadow ray.
     void add_light(const GpuScene& scene, std::uint32_t path, float distance) {
         const shared::ShadowRay& shadow = shadows_.span<shared::ShadowRay>()[path];
         glm::vec3 c = shadow.contribution;
@@ -236,7 +236,7 @@ class EmbreeTracer final : public Tracer {
         return traced;
     }
 
-    // Who shades this hit, or this miss? `material`: of a hit, where it is known already.
+    // The type that shades this hit or miss. `material`: of a hit, if already known.
     std::uint8_t shader_of(const GpuScene& scene, std::uint32_t i, bool last_vertex,
                            std::optional<std::uint32_t> material = std::nullopt) {
         shared::RayHit& ray = rays_.span<shared::RayHit>()[i];
@@ -278,13 +278,13 @@ class EmbreeTracer final : public Tracer {
         return traced;
     }
 
-    // Finds the nearest hit, and those before it that are undecided. True: there are some.
+    // Finds the nearest hit, and undecided ones in front of it. Returns whether there are any.
     bool intersect_undecided(const GpuScene& scene, std::uint32_t i, Undecided& undecided) {
         shared::RayHit& ray = rays_.span<shared::RayHit>()[i];
         auto& hits = undecided.hits;
         const std::size_t first = hits.size();
         embree_->intersect(ray, &hits);
-        if (ray.inst != NONE) // those behind it do not matter
+        if (ray.inst != NONE) // those behind it are irrelevant
             hits.erase(std::remove_if(hits.begin() + std::ptrdiff_t(first), hits.end(),
                                       [&](const auto& hit) { return hit.t >= ray.tfar; }),
                        hits.end());
@@ -297,7 +297,8 @@ class EmbreeTracer final : public Tracer {
         return true;
     }
 
-    // Asks the device about all hits that were put aside, and ends what waits for them. False: keep_going said to stop.
+    // Lets the device decide all deferred hits, and completes the rays waiting for them. False: keep_going requested a
+    // stop.
     Result<bool> decide(const GpuScene& scene, bool last_vertex, const std::function<bool()>& keep_going) {
         std::vector<shared::HitAsked> asked;
         for (const Undecided& u : undecided_)

@@ -57,19 +57,19 @@ class GpuScene {
 
     // By index into types(), as in shared::MaterialData::type. Indices are stable for the scene's lifetime.
     const std::vector<MaterialType>& types() const { return types_; }
-    // Those that the scene's textures have, or had; index + 1 is the kind of an operation.
+    // The types that the scene's textures have, or had; index + 1 is the kind of an operation.
     const TextureTypes& texture_types() const { return texture_types_; }
     const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
     const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
-    // Can rays hit this instance?
+    // Whether rays can hit this instance.
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
-    // Does it block shadow rays? True for whatever rays can hit, except lamps without a surface.
+    // Whether it blocks shadow rays: true for everything that rays can hit, except lamps without a surface.
     bool opaque(std::uint32_t instance) const {
         return traced(instance) && !(instances()[instance].flags & INSTANCE_PASSES);
     }
-    // Is it, or part of it, a border of media that rays pass?
+    // Whether it is, or part of it is, a border of media that rays pass.
     bool border(std::uint32_t instance) const { return border_[instance] != 0; }
     scene::Id<scene::Mesh> mesh_of(std::uint32_t instance) const { return mesh_of_[instance]; }
     bool is_quadric(std::uint32_t instance) const { return instances()[instance].flags & INSTANCE_QUADRIC; }
@@ -91,11 +91,12 @@ class GpuScene {
                       const float* dir) const;
     // The material of a hit, through mixes; MATERIAL_NOTHING if there is no surface.
     std::uint32_t resolve_material(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary) const;
-    // Does some texture that decides about its hits (alpha, mixes) have no native code? Of such the two above know an
-    // average only; wave_decide.comp knows better.
+    // Whether a texture that decides its hits (alpha, mixes) has no native code. For these, the two functions above use
+    // the texture's average; wave_decide.comp is exact.
     bool undecided(std::uint32_t instance) const { return !undecided_.empty() && undecided_[instance]; }
     bool any_undecided() const { return !undecided_.empty(); }
-    // Does it stop a ray here, given its alpha and its material? `choice`: the primitive; of quadrics, see QuadricHit.
+    // Whether it stops a ray here, given its alpha and its material. `choice`: the primitive; of quadrics, see
+    // QuadricHit.
     bool stops(std::uint32_t instance, std::uint32_t choice, const shared::HitDecided&, const glm::vec3& origin,
                const glm::vec3& direction) const;
     // The medium that a ray enters at a border.
@@ -183,7 +184,7 @@ class GpuScene {
     LightTable light_table_;
     double radius_ = 1; // of the visible objects
     std::uint32_t quadrics_ = 0; // number that rays may hit
-    bool lights_touched_ = false; // by the last sync_instances: something that emits, or did
+    bool lights_touched_ = false; // by the last sync_instances: emitters, current or former
     bool reads_files_ = false; // some material in use does; the files may have changed
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;

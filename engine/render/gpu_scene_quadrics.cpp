@@ -36,7 +36,7 @@ glm::mat4x3 GpuScene::placement(std::uint32_t id) const {
     const Quadric& q = *mesh(mesh_of_[id])->quadric;
     const glm::dmat3 m(in.object_to_world[0], in.object_to_world[1], in.object_to_world[2]);
     const glm::dvec3 centre(0, 0, (q.z_min + q.z_max) / 2), at(in.object_to_world[3]);
-    // The margin exceeds the rounding of its position, so that every ray that meets the quadric meets the box.
+    // The margin exceeds the rounding of its position, so that every ray that hits the quadric hits the box.
     const glm::dmat3 back = glm::transpose(glm::dmat3(in.normal_to_world));
     glm::dvec3 away(0);
     for (int i = 0; i < 3; ++i)

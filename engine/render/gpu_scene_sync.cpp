@@ -244,7 +244,7 @@ namespace {
 
 // Rays are transformed to object space: without an inverse, or with one out of float range (Embree takes coordinates
 // below 1.8e18), there is no ray. 1e9: an object a billionth of its mesh's size. 1e-6: for skewed axes floats cannot
-// tell less from 0.
+// distinguish less from 0.
 bool traceable(const glm::dmat4& object_to_world) {
     const glm::dmat3 linear(object_to_world);
     const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);

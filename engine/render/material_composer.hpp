@@ -28,20 +28,21 @@ struct SceneFeatures {
     bool operator==(const SceneFeatures&) const = default;
 };
 
-// What a Spectrum is in the composed shader: see shaders/restage/v1/spectrum.glsl. There is no spectral rendering yet.
+// The definition of Spectrum in the composed shader: see shaders/restage/v1/spectrum.glsl. No spectral rendering yet.
 enum class ColorMode { rgb, spectral };
 
 // `main_file`: "wave_shade.glsl" or another tracer's wrapper around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage,
                                    ColorMode = ColorMode::rgb, std::span<const TextureType> textures = {});
-// Does its shader look textures up? Then it is composed with the types of the scene.
+// Whether its shader samples textures: then it is composed with the scene's texture types.
 bool evaluates_textures(const SceneFeatures&, const MaterialType&);
 
 // The stand-in for a material that is still compiling: `type` (diffuse) with its defaults, in the material's
 // own colour; see MaterialData::params.
 gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage);
 
-// Does a material's GLSL compile within the kernel that renders it? Needs no device. For Registry::set_judge. [main]
+// Checks that a material's GLSL compiles within the kernel that renders it. Needs no device. For Registry::set_judge.
+// [main]
 plugin::Registry::Judge material_judge(std::filesystem::path shader_dir);
 
 // For a material's shader: the features this type uses; or for a kernel without material.

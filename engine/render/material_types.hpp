@@ -24,7 +24,7 @@ struct MaterialPlugin {
     std::filesystem::path folder; // where its GLSL is
     // Owns the table and the text of the GLSL; nullptr: the table outlives the renderer, and the folder is read.
     std::shared_ptr<const plugin::MaterialSource> source = nullptr;
-    Blame blame = {}; // for a crash while it is compiled
+    Blame blame = {}; // for crash notes while it is compiled
     bool emits() const { return table && table->emission; }
     std::uint64_t revision() const { return source ? source->revision() : 0; }
 };
@@ -33,10 +33,10 @@ struct MaterialPlugin {
 struct MaterialLookup {
     using Find = std::function<std::optional<MaterialPlugin>(const std::string& type)>;
     Find find;
-    TextureLookup textures = {}; // the same for textures
+    TextureLookup textures = {}; // likewise for textures
     std::optional<MaterialPlugin> operator()(const std::string& type) const { return find(type); }
 
-    // NOLINTNEXTLINE(google-explicit-constructor): a lambda that knows materials alone will do
+    // NOLINTNEXTLINE(google-explicit-constructor): a lambda for materials only suffices
     template <class F>
         requires(!std::is_same_v<std::remove_cvref_t<F>, MaterialLookup> &&
                  std::is_invocable_r_v<std::optional<MaterialPlugin>, F, const std::string&>)

@@ -29,8 +29,8 @@ class Renderer {
     // The driver has stopped (VK_ERROR_DEVICE_LOST): everything fails until revive().
     bool lost() const { return !device_ || device_->lost(); }
     // Reopens the device, rederives everything from the scene and logs it; the film is empty, and
-    // restart()'s numbers stay. An error if the driver stopped again before it delivered a sample: it would do so
-    // for ever. After an error the renderer is unusable.
+    // restart()'s numbers stay. An error if the driver stopped again before it delivered a sample: retrying would
+    // never end. After an error the renderer is unusable.
     Result<void> revive(const scene::Scene& scene);
     // The result of sync() or trace(); if the driver stopped and `once` is still false, that of revive(). For work
     // that is retried in that case, but only once.

@@ -29,7 +29,7 @@ std::string declare(const TextureType& type, gpu::ShaderSource& source) {
                        type.plugin.revision(), table.prefix, fields, folder, table.glsl_file);
 }
 
-// One case: takes the operands off the stack, the last first, and calls the plugin.
+// One case: pops the operands off the stack, the last one first, and calls the plugin.
 std::string operation(const TextureType& type, std::size_t kind) {
     const model::Texture& table = *type.plugin.table;
     std::uint32_t at = 2, bit = TEXTURE_OP_FIRST_OPERAND;

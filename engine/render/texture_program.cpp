@@ -45,7 +45,7 @@ class Compiler {
     }
 
   private:
-    // Appends what pushes texture `id`; false when it needs more of the stack than there is. `data`: it feeds a number.
+    // Appends the operations that push texture `id`; false if they need too much stack. `data`: it feeds a number.
     bool texture(Id<Texture> id, std::size_t height, int depth, bool data) {
         const Texture* t = scene_.textures.find(id);
         if (!t || depth > deepest_graph || height >= stack_size) return false;
@@ -125,7 +125,7 @@ class Compiler {
     TextureTypes& types_;
     const TextureLookup& lookup_;
     TexturePrograms& out_;
-    std::uint32_t count_ = 0; // operations of the program at hand
+    std::uint32_t count_ = 0; // operations of the current program
     bool native_ = true;
 };
 

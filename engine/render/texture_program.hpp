@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures of the scene as postfix programs, in words that shaders read (shaders/lib/texture.glsl), and for the CPU,
-// which resolves cut-outs and mixes while Embree visits a hit, by the native code of the textures' plugins where they
-// have it.
+// Textures of the scene as postfix programs: in words for shaders (shaders/lib/texture.glsl), and for the CPU, which
+// resolves cut-outs and mixes while Embree visits a hit, by the native code of the textures' plugins if they
+// have any.
 #pragma once
 
 #include "render/texture_types.hpp"
@@ -12,7 +12,7 @@
 
 namespace restage::render {
 
-// An operation as the CPU does it.
+// An operation on the CPU.
 struct NativeOp {
     const plugin::TextureSource* source = nullptr; // null: a literal
     glm::vec3 literal{0};
@@ -30,20 +30,20 @@ struct TexturePrograms {
     std::vector<std::uint32_t> words;
     struct Native {
         std::uint32_t first = 0, count = 0; // of ops
-        bool there = false;     // else some type has no native code, and
-        glm::vec3 average{0.5f}; // this stands for it where nothing better can
+        bool there = false;     // else a type has no native code, and
+        glm::vec3 average{0.5f}; // this average is used if nothing better is available
     };
     std::vector<Native> native;
     std::vector<NativeOp> ops;
-    std::vector<float> values; // 4 a table line
-    std::vector<std::int32_t> whole; // 1 a table line
+    std::vector<float> values; // 4 per table line
+    std::vector<std::int32_t> whole; // 1 per table line
 };
 
-// Types that no plugin has shade as their `average`; so do images without pixels, and graphs that need more of the
-// stack than there is. Types that are met for the first time are added.
+// Types without a plugin shade as their `average`; so do images without pixels, and graphs that exceed the
+// stack. New types are added.
 TexturePrograms compile_textures(const scene::Scene&, TextureTypes&, const TextureLookup&);
 
-// Pixels as the CPU reads them.
+// Pixels for reading on the CPU.
 struct CpuImage {
     const scene::PixelData* pixels = nullptr;
 };

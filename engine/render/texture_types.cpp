@@ -36,11 +36,11 @@ bool refresh_texture_types(TextureTypes& types, const TextureLookup& lookup, boo
         TexturePlugin now = lookup ? lookup(types[i].type).value_or(TexturePlugin{}) : TexturePlugin{};
         TexturePlugin& before = types[i].plugin;
         if (now.source == before.source && now.table == before.table) continue;
-        words_changed = true; // or the native code is another
+        words_changed = true; // or the native code differs
         shaders |= now.revision() != before.revision() || !now.table != !before.table;
         if (!before.table || texture_layout(now.table) == texture_layout(before.table)) {
             before = std::move(now);
-        } else { // shaders that are still in use must not take the new words for the old
+        } else { // shaders still in use must not read the new words with the old layout
             const std::string type = std::exchange(types[i].type, std::string());
             before = {};
             types.push_back({type, std::move(now)});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texture types a scene uses, and how an operation of a texture's program lies in the words that shaders read:
-// render/texture_composer.cpp writes the GLSL that reads what texture_program.cpp packs.
+// The texture types a scene uses, and the layout of an operation of a texture's program in the words that shaders read:
+// render/texture_composer.cpp generates the GLSL that reads what texture_program.cpp packs.
 #pragma once
 
 #include "model/texture.hpp"
@@ -20,21 +20,21 @@ namespace restage::render {
 struct TexturePlugin {
     const model::Texture* table = nullptr;
     std::filesystem::path folder; // where its GLSL is
-    std::shared_ptr<const plugin::TextureSource> source = nullptr; // holds the table, the GLSL and the native code
-    Blame blame = {}; // of a crash while it is compiled
+    std::shared_ptr<const plugin::TextureSource> source = nullptr; // owns the table, the GLSL and the native code
+    Blame blame = {}; // for crash notes while it is compiled
     std::uint64_t revision() const { return source ? source->revision() : 0; }
     bool native() const { return source && source->eval(); }
 };
-// Finds the plugin of a texture type; nullopt = there is none: it shades as its average. [any]
+// Finds the plugin of a texture type; nullopt if there is none: then it shades as its average. [any]
 using TextureLookup = std::function<std::optional<TexturePlugin>(const std::string& type)>;
-TextureLookup texture_lookup(const plugin::Registry& registry); // `registry` outlives what uses it
+TextureLookup texture_lookup(const plugin::Registry& registry); // `registry` must outlive its users
 
 struct TextureType {
-    std::string type; // "": one whose words lie otherwise since its plugin was reloaded; its number is not used again
+    std::string type; // "": its layout changed when its plugin was reloaded; the number is not reused
     TexturePlugin plugin;
     bool composed() const { return !type.empty() && plugin.table; }
 };
-// Index + 1 is the kind of its operations; 0 is a literal. Types never change place while the scene lives.
+// Index + 1 is the kind of its operations; 0 is a literal. Indices are stable for the scene's lifetime.
 using TextureTypes = std::vector<TextureType>;
 constexpr std::size_t most_texture_types = 255;
 
@@ -42,9 +42,9 @@ constexpr std::size_t most_texture_types = 255;
 // lines.
 constexpr std::uint32_t map_words = 6;
 std::uint32_t texture_words(const model::Texture&);
-std::string texture_layout(const model::Texture*); // equal: shaders composed for one read the words of the other
+std::string texture_layout(const model::Texture*); // if equal, shaders composed for one can read the words of the other
 
-// Takes what the lookup has now, for types that are in the list. Returns whether shaders are to be composed anew.
+// Updates the listed types from the lookup. Returns whether shaders must be recomposed.
 bool refresh_texture_types(TextureTypes&, const TextureLookup&, bool& words_changed);
 
 } // namespace restage::render

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of the wavefront, each built on a worker when a path first needs it: a material type that no path meets
+// The kernels of the wavefront, each built on a worker when a path first needs it: a material type that no path hits
 // costs nothing. Until a kernel is built, the wave waits, or (TracerContext::stand_ins) runs the previous one, or a
 // stand-in.
 #pragma once
@@ -28,7 +28,7 @@ class WaveKernels {
     const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
     const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
 
-    // Of wave_decide.comp, for hits that no native code can decide. False: keep_going requested a stop.
+    // Of wave_decide.comp, for hits that native code cannot decide. False: keep_going requested a stop.
     Result<bool> need_decide(const std::function<bool()>& keep_going);
     const gpu::ComputePipeline& decide() const { return *decide_.now; } // after need_decide()
 

@@ -312,7 +312,7 @@ Edit set_environment(const Scene& scene, std::optional<Environment> environment,
     Edit edit{std::move(label), {}};
     const auto& now = scene.environment.value;
     if (now && !now->sky.empty() && (!environment || environment->image != now->image)) {
-        // With another image it is the plugin's no more; the one that was is nobody's.
+        // With another image it is no longer the plugin's; the old image becomes unused.
         if (environment && environment->sky == now->sky) environment->sky.clear(), environment->sky_params = {};
         if (const Image* image = scene.images.find(now->image); image && users(scene, now->image).size() == 1)
             edit.changes.push_back(Change<Image>{now->image, *image, std::nullopt});

@@ -44,7 +44,7 @@ Id<Image> shared_image(const Scene& scene, Image image, Edit& edit) {
 
 bool is_operand(const model::Param& line) { return line.texturable; }
 
-// As the line holds it: a colour of a number is grey, a number of a colour its first component.
+// Converted to the line's type: a number becomes grey, a colour becomes its first component.
 Value fitted(Value value, const model::Param& line) {
     if (line.type == ParamType::color && value.type == ParamType::number) value.v[1] = value.v[2] = value.v[0];
     value.type = line.type;

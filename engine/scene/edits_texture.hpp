@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edit builders for textures: what a slot of a material, or an operand of another texture, is filled with.
+// Edit builders for textures in slots: parameters of materials, and operands of other textures.
 #pragma once
 
 #include "model/texture.hpp"
@@ -17,17 +17,17 @@ struct TextureSlot {
     bool scalar = false; // reads one channel
 };
 
-// Whether `from` is `to`, or has it among its operands, at any depth.
+// Whether `from` is `to`, or has it as an operand at any depth.
 bool contains(const Scene&, Id<Texture> from, Id<Texture> to);
 
-// A new texture of this type in the slot. Its first operand is what the slot had, texture or constant; the image of a
-// texture that was there stays.
+// A new texture of this type in the slot. Its first operand is the slot's previous texture or constant; the image of a
+// previous texture is kept.
 Result<Edit> new_texture(const Scene&, const TextureSlot&, const model::Texture& table);
 // An `imagemap` of this image; see set_image_texture of materials.
 Result<Edit> set_image_texture(const Scene&, const TextureSlot&, Image);
 // The texture's own image; one of the same file and encoding is shared.
 Result<Edit> set_image(const Scene&, Id<Texture>, Image);
-// Values that the new type can hold are kept; operands without such a value take the old type's, in order. `before`:
+// Values compatible with the new type are kept; operands without such a value take the old type's, in order. `before`:
 // null if no plugin has the old type.
 Result<Edit> switch_texture_type(const Scene&, Id<Texture>, const model::Texture* before, const model::Texture& after);
 Result<Edit> reset_param(const Scene&, Id<Texture>, std::string_view param); // back to the table's default

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of lights without a surface, a row each. Project files, validation, comparison, the light meter, the light
-// table, the editor, commands and Python go by the row; what a kind sends where is shaders/shared/lamps.h, for the GPU
-// and the light meter alike.
+// The kinds of lights without a surface, one row each. Project files, validation, comparison, the light meter, the
+// light table, the editor, commands and Python use the row; the emission of a kind is in shaders/shared/lamps.h, shared
+// by the GPU and the light meter.
 #pragma once
 
 #include <cstdint>
@@ -21,32 +21,32 @@ enum class Falloff : std::uint8_t {
 };
 
 struct Cone { // in cosines
-    double edge, start; // where a spot ends; where it begins to fade
+    double edge, start; // edge of the spot; where it begins to fade
     Falloff falloff;
 };
 
 struct LightKindRow {
     LightKind kind;
-    const char* id;    // in project files, scripts and lists
+    const char* id; // in project files, scripts and lists
     const char* label; // in the editor
-    const char* name;  // of a new one
-    const char* unit;  // of Light::value
-    const char* shines; // what it does
-    const char* added;  // what a new one does, in the editor
-    bool placed; // the place of light_to_world matters
-    bool aimed;  // its +z does
-    bool cone;   // cone_angle, cone_delta and falloff do
-    // [W] of a value of 1, in a scene of that radius: what a light is chosen by.
+    const char* name; // of a new one
+    const char* unit; // of Light::value
+    const char* shines; // its description
+    const char* added; // description of a new one, in the editor
+    bool placed; // the position in light_to_world is used
+    bool aimed; // its +z is used
+    bool cone; // cone_angle, cone_delta and falloff are used
+    // Power [W] at a value of 1, in a scene of that radius: lights are sampled by it.
     double (*power)(const Cone&, double radius);
 };
 
 // In order of LightKind.
 inline constexpr LightKindRow light_kinds[] = {
-    {LightKind::point, "point", "Point", "Point light", "W/sr", "Shines all around from one point",
-     "Shines all around, above what is in the middle of the picture", true, false, false,
+    {LightKind::point, "point", "Point", "Point light", "W/sr", "Emits in all directions from a point",
+     "Emits in all directions, above the middle of the picture", true, false, false,
      [](const Cone&, double) { return 4 * std::numbers::pi; }},
-    {LightKind::spot, "spot", "Spot", "Spot light", "W/sr", "A cone of light from one point",
-     "A cone downwards onto what is in the middle of the picture", true, true, true,
+    {LightKind::spot, "spot", "Spot", "Spot light", "W/sr", "A cone of light from a point",
+     "A cone pointing down at the middle of the picture", true, true, true,
      [](const Cone& c, double) { // over the edge the mean of t^2 (3 - 2t) is 1/2, that of t^4 is 1/5
          return 2 * std::numbers::pi *
                 ((1 - c.start) + (c.start - c.edge) * (c.falloff == Falloff::quartic ? 0.2 : 0.5));
@@ -63,7 +63,7 @@ static_assert([] {
 
 constexpr const LightKindRow& light_row(LightKind kind) { return light_kinds[static_cast<std::size_t>(kind)]; }
 
-constexpr std::optional<LightKind> light_kind(std::string_view id) { // nullopt = there is none of that id
+constexpr std::optional<LightKind> light_kind(std::string_view id) { // nullopt if there is none with that id
     for (const LightKindRow& r : light_kinds)
         if (id == r.id) return r.kind;
     return std::nullopt;

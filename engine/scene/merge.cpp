@@ -103,7 +103,7 @@ glm::dmat4 frame_change(const Scene& into, const Scene& from) {
 }
 
 Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
-    // Items used only by the environment or camera, or not at all, are left behind.
+    // Items used only by the environment or camera, or not at all, are not merged.
     Scene from = whole;
     from.environment.value.reset();
     from.settings.value.camera_medium = {};

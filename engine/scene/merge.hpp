@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Merging one scene into another, as an edit: everything its objects and lights need, under new ids. Its camera, film,
-// settings and environment are left behind.
+// settings and environment are not merged.
 #pragma once
 
 #include "scene/edit.hpp"

@@ -26,7 +26,7 @@ struct OriginValue {
     bool operator==(const OriginValue&) const = default;
 };
 
-// Where a thing came from. The engine reads only the ids: values are valid only until that one, or any ("*"),
+// The origin of a thing. The engine reads only the ids: values are valid only until that one, or any ("*"),
 // is edited (edits.hpp).
 struct Origin {
     std::string verbatim; // not understood by its importer: one "key value" line each, written back verbatim

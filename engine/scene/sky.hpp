@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sky: edits that light a scene from all around. [any]
+// Sky: edits of the environment. [any]
 #pragma once
 
 #include "scene/edit.hpp"
@@ -13,7 +13,7 @@ namespace restage::scene {
 // The rotation of an environment whose pole, +z in a panorama, points along `up` (a unit vector).
 glm::dmat4 upright_sky(const glm::dvec3& up);
 
-// Soft grey light from all around: a wide soft box overhead and one at the side, generated without a file.
+// A neutral environment: a wide soft box overhead and one at the side, generated without a file.
 Edit studio_sky(const Scene& scene, const glm::dvec3& up);
 
 // The image, with its pixels read as scene::Encoding::srgb, becomes the sky; square images are octahedral maps as in
@@ -22,8 +22,8 @@ Edit studio_sky(const Scene& scene, const glm::dvec3& up);
 Edit image_sky(const Scene& scene, const std::string& path, std::shared_ptr<const PixelData> pixels,
                const glm::dvec3& up);
 
-// A sky plugin's picture with its values becomes the sky, under this name. Rotation, strength and whether it is seen
-// stay where the sky was a plugin's already; its picture is replaced. `pixels`: square, octahedral, +z up.
+// Sets a sky plugin's image, with its values and this name, as the sky. If the sky is already a plugin's, its image is
+// replaced, and rotation, strength and visibility are kept. `pixels`: square, octahedral, +z up.
 Edit made_sky(const Scene& scene, const std::string& name, const std::string& type, ParamSet values,
               std::shared_ptr<const PixelData> pixels, const glm::dvec3& up);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Problems in one item's values, whatever sets them: an importer, an edit builder, a script.
+// Problems in an item's values, whether set by an importer, an edit builder or a script.
 #include "scene/edit.hpp"
 #include "scene/tables.hpp"
 #include "scene/validate.hpp"
@@ -53,8 +53,8 @@ class Found {
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 3; ++r)
                 if (std::abs(m[c][r]) > largest_length)
-                    return error("transform", fmt::format("{}: the transform holds {:g}; up to {:g} is possible", who,
-                                                          m[c][r], largest_length));
+                    return error("transform", fmt::format("{}: the transform has a value of {:g}; the maximum is {:g}",
+                                                          who, m[c][r], largest_length));
         const glm::dmat3 linear(m);
         const double volume = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
         if (volume == 0 || std::abs(glm::determinant(linear)) <= 1e-12 * volume)
@@ -66,8 +66,8 @@ class Found {
         if (!finite(v))
             error(kind, fmt::format("{}: {} has a non-finite value", who, what));
         else if (std::max({v.x, v.y, v.z}) > most_light)
-            error(kind, fmt::format("{}: {} of {:g}; up to {:g} is possible", who, what, std::max({v.x, v.y, v.z}),
-                                    most_light));
+            error(kind,
+                  fmt::format("{}: {} of {:g}; the maximum is {:g}", who, what, std::max({v.x, v.y, v.z}), most_light));
         else if (negative(v))
             warning("negative light", fmt::format("{}: {} ({:g}, {:g}, {:g}) is negative", who, what, v.x, v.y, v.z));
     }
@@ -138,7 +138,7 @@ std::vector<ValueProblem> value_problems(const Image& image) {
     }
     const PixelData& d = *image.data;
     if (d.channels != 1 && d.channels != 3 && d.channels != 4)
-        out.error("image", fmt::format("{}: {} channels; 1, 3 or 4 are possible", called(image), d.channels));
+        out.error("image", fmt::format("{}: {} channels; must be 1, 3 or 4", called(image), d.channels));
     else if (d.width == 0 || d.height == 0 || d.values.size() != std::size_t{d.width} * d.height * d.channels)
         out.error("image", fmt::format("{}: {} values for {}x{} pixels of {} channels", called(image), d.values.size(),
                                        d.width, d.height, d.channels));
@@ -184,9 +184,10 @@ std::vector<ValueProblem> value_problems(const Light& light) {
         out.error("light", called(light) + " has a non-finite value");
     else if (light_row(light.kind).cone &&
              !(light.cone_angle > 0 && light.cone_angle <= 180 && light.cone_delta >= 0 && light.cone_delta <= 180))
-        out.warning("cone", fmt::format("{}: a cone of {:g} degrees with an edge of {:g}; more than 0 and 0 or more, "
-                                        "up to 180, make sense",
-                                        called(light), light.cone_angle, light.cone_delta));
+        out.warning("cone",
+                    fmt::format("{}: a cone of {:g} degrees with an edge of {:g}; they must be above 0, and 0 or more, "
+                                "and at most 180",
+                                called(light), light.cone_angle, light.cone_delta));
     return out.take();
 }
 
@@ -228,7 +229,7 @@ std::vector<ValueProblem> value_problems(const Film& film) {
     Found out;
     if (film.width == 0 || film.height == 0 || film.width > longest_film_side || film.height > longest_film_side ||
         std::uint64_t{film.width} * film.height > most_film_pixels)
-        out.error("film", fmt::format("the film has {}x{} pixels; 1x1 to {} a side and 2^28 in total are possible",
+        out.error("film", fmt::format("the film has {}x{} pixels; it must be 1x1 to {} per side and 2^28 in total",
                                       film.width, film.height, longest_film_side));
     const glm::vec4& crop = film.crop;
     if (!(crop.x >= 0 && crop.x < crop.y && crop.y <= 1 && crop.z >= 0 && crop.z < crop.w && crop.w <= 1))

@@ -18,7 +18,7 @@ enum class ToneCurve {
     filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), per channel
 };
 
-// The viewable data of a film: its layers (render/film_layers.hpp), by name, and the relative error.
+// The displayable data of a film: its layers (render/film_layers.hpp), by name, and the relative error.
 struct LayerChoice {
     const char *name, *label;
 };

@@ -51,7 +51,7 @@ struct LiveView::Impl {
     std::optional<Request> mail; // the newest request, not yet taken
     std::optional<render::RendererOptions> new_options;
     std::uint64_t last_number = 0; // last issued
-    bool taking = false; // a request was taken from `mail`, and may turn out to show the same
+    bool taking = false; // a request was taken from `mail`, and may show the same picture
     std::uint64_t visible = 0; // the newest request that shows something different from its predecessor
     Pictures pictures;
     ViewStatus now;
@@ -62,7 +62,7 @@ struct LiveView::Impl {
     Impl(const plugin::Registry& r, Log& l, render::RendererOptions options, std::function<void()> news)
         : registry(r), log(l), on_news(std::move(news)), new_options(std::move(options)) {
         denoiser.emplace(registry, ViewDenoiser::Host{
-                                       // A coarse picture is worth finishing; a fine one is dropped when the scene has
+                                       // A coarse picture is always finished; a fine one is dropped when the scene has
                                        // changed.
                                        .wanted =
                                            [this](const Frame& frame) {

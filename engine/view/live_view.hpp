@@ -3,7 +3,7 @@
 // the caller's priority; the newest scene wins. During changes, a coarse picture comes first, at a resolution chosen
 // from the measured speed, and is refined by halving to the full one, which then accumulates samples.
 //
-// Threads: all public functions are [main] and return at once. `on_news` is called from the threads.
+// Threads: all public functions are [main] and return immediately. `on_news` is called from the threads.
 #pragma once
 
 #include "base/log.hpp"
@@ -88,7 +88,7 @@ class LiveView {
     // The newest pictures of the last requested document; null before the first. frame(): as traced.
     std::shared_ptr<const Frame> frame() const;
     std::shared_ptr<const Frame> denoised() const;
-    // What to show; null: nothing yet. With `want_denoised` never a noisy one: the last clean one, of any
+    // The picture to show; null: nothing yet. With `want_denoised` never a noisy one: the last clean one, of any
     // request, stays until the next is ready. A document starts with clay, until all it needs is compiled and its
     // first picture exists. Without a working denoiser, noisy ones.
     std::shared_ptr<const Frame> best(bool want_denoised) const;

@@ -41,8 +41,8 @@ struct StoredPicture {
 // An error if it lacks the number of samples or the layer `stderr`.
 Result<StoredPicture> read_picture(const std::string& path);
 
-// Is `other` from a different render than `first`: another scene, other changes or settings? The error says what
-// differs.
+// Whether `other` is from a different render than `first`: another scene, other changes or settings. The error states
+// the difference.
 Result<> same_render(const std::map<std::string, std::string>& first, const std::map<std::string, std::string>& other);
 
 // Merges several such files. Refused: parts of other scenes, sizes or settings, and parts that share samples.

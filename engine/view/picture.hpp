@@ -28,7 +28,7 @@ struct PictureOptions {
 std::vector<std::string> aov_names();
 // Known layer names separated by commas, or all, or none; the error lists them.
 Result<void> check_aovs(const std::string& aovs);
-// Checked before hours of rendering: can a picture be written there at all?
+// Checks, before hours of rendering, that a picture can be written there.
 Result<void> check_picture_path(const std::string& path);
 // .exr: the picture, the requested layers and metadata. .png, .jpg: exposure and sRGB. .pfm, .hdr: the picture.
 // The same picture and options give the same bytes.

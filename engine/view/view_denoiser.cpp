@@ -59,7 +59,7 @@ bool ViewDenoiser::choose_again(std::optional<plugin::DenoiserEntry>& chosen) {
 }
 
 void ViewDenoiser::run() {
-    lower_thread_priority(3); // ahead of rendering (5): shown pictures come from here
+    lower_thread_priority(3); // higher than rendering (5): it delivers the shown pictures
     std::optional<plugin::DenoiserEntry> denoiser;
     for (;;) {
         const bool able = choose_again(denoiser);

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A data set from one room: variations of the bundled scene in materials, layout, sky and camera, each with its picture,
-guide images, instance labels and a JSON that says what changed.
+guide images, instance labels and a JSON that lists the changes.
 
     python room_variations.py -o dataset --count 50             # one process
     python room_variations.py -o dataset --count 50 --ray       # the same files, frames spread over Ray's workers
 
-Variation i of a seed is the same on any worker and in any order; existing ones are not made again.
+Variation i of a seed is the same on any worker and in any order; existing ones are kept.
 For each: 0007.png (denoised), 0007.exr (linear, with standard error, albedo, normal, depth, ids), 0007.npz (labels: index
-into "things" of the JSON, uint16; depth; normal), 0007.json (written last: a variation without one is made again).
+into "things" of the JSON, uint16; depth; normal), 0007.json (written last: a variation without one is repeated).
 """
 import argparse
 import json
@@ -28,14 +28,14 @@ MOVABLE = ["Chair", "Chair 2", "Chair 3", "Plant"]
 
 
 def overlaps(a, b, gap=0.01):
-    """Do boxes (2, 3) come closer than the gap?"""
+    """Whether boxes (2, 3) are closer than the gap."""
     return bool(np.all(a[0] < b[1] + gap) and np.all(b[0] < a[1] + gap))
 
 
 def place(session, thing, rng, obstacles, room, tries=30):
-    """Moves and turns a thing on the floor to a free place; returns what was done, or None if there is no place.
+    """Moves and turns a thing on the floor to a free place. Returns the change, or None if there is no place.
 
-    Parts are boxes: a chair fits below a table, whose top and legs are boxes of their own."""
+    Parts are separate boxes, so that a chair fits below a table, whose top and legs are boxes."""
     for _ in range(tries):
         by = np.array([*rng.normal(0, 0.45, 2), 0.0])
         turn = float(rng.uniform(-180, 180))

@@ -13,7 +13,7 @@
         session.export("edited.pbrt")
 
 Lengths are in the scene's own unit, angles in degrees, colours linear sRGB. Every change goes through the session's
-history, as in the editor. What cannot be done raises restage.Error with one sentence. The engine's warnings go to
+history, as in the editor. Failures raise restage.Error with a one-sentence message. The engine's warnings go to
 Python's logger "restage".
 """
 import pathlib as _pathlib
@@ -53,7 +53,7 @@ def bundled_scene(name: str) -> _pathlib.Path:
     path = _pathlib.Path(_core.home()) / "share/restage/scenes" / f"{name}" / f"{name}.pbrt"
     if not path.exists():
         names = sorted(p.parent.name for p in path.parents[1].glob("*/*.pbrt") if p.parent.name == p.stem)
-        raise Error(f"there is no bundled scene \"{name}\"; there are {', '.join(names)}")
+        raise Error(f"there is no bundled scene \"{name}\"; known: {', '.join(names)}")
     return path
 
 

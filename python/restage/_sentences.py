@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Errors about wrong arguments in one sentence. nanobind lists all overloads' signatures; here each function of the
-module says instead which argument was wrong, what it is and what it should be."""
+module instead reports which argument was wrong, what it is and what it should be."""
 import ast
 import difflib
 import functools
@@ -35,7 +35,7 @@ def _all(value, fits):
         return False
 
 
-# For each annotation: its name in messages, and does a value fit? The module's own types are looked up in the module.
+# For each annotation: its name in messages, and whether a value fits. The module's types are looked up in the module.
 _KINDS = {
     "float": ("a number", _number),
     "int": ("a whole number", _whole),
@@ -181,7 +181,7 @@ def _sentence(signatures, label, method, args, kwargs, module):
         if text:
             return text
     given = [_shown(a) for a in args[method:]] + [f"{k}={_shown(v)}" for k, v in kwargs.items()]
-    return f"{label} cannot take {', '.join(given) or 'no arguments'}; help({label.removesuffix('()')}) says what it takes"
+    return f"{label} cannot take {', '.join(given) or 'no arguments'}; see help({label.removesuffix('()')})"
 
 
 def _wrap(function, label, method, module):

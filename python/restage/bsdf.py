@@ -14,7 +14,7 @@ if typing.TYPE_CHECKING:
 
 
 class BsdfSample(typing.NamedTuple):
-    """Sampled directions. Rows whose `flags` is 0 hold no sample; the rest of such a row is undefined."""
+    """Sampled directions. Rows whose `flags` is 0 have no sample; the rest of such a row is undefined."""
 
     wi: NDArray[numpy.float32]
     "(n, 3): towards the light."
@@ -86,5 +86,5 @@ class Bsdf:
         return BsdfSample(a["wi"].copy(), a["weight"].copy(), a["sample_pdf"].copy(), a["flags"].copy(), a["eta"].copy())
 
     def albedo(self, wo: ArrayLike, params: Params = None) -> NDArray[numpy.float32]:
-        """Albedo as used by the denoiser and the light budget, (n, 3): about the share of light that is scattered."""
+        """Albedo as used by the denoiser and the light budget, (n, 3): about the fraction of light that is scattered."""
         return self._run(wo, (0, 0, 1), (0.5, 0.5, 0.5), params, 0)["albedo"].copy()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check: runs `restage check` on a plugin, from Python. The program runs the plugin in a process of its own, so
+"""check: runs `restage check` on a plugin, from Python. The program runs the plugin in a separate process, so
 that a crash or hang does not affect the caller."""
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class CheckStep:
     step: str
     "Its name: chi-square, energy, ..."
     of: str
-    "Which material, exporter, ... of the plugin; \"\" = the plugin itself."
+    "The material, exporter, ... of the plugin; \"\" = the plugin itself."
     verdict: str
     "pass, fail or skipped."
     text: str
@@ -61,9 +61,9 @@ class CheckReport:
 
 def check(plugin: str | os.PathLike | _core.Plugin, *, quick: bool = False, only: str | None = None,
           seed: int | None = None, time_limit: float | None = None) -> CheckReport:
-    """Tests whether a plugin does what it promises. plugin: a folder with a plugin.json, an id, what a plugin provides
+    """Tests whether a plugin meets its contract. plugin: a folder with a plugin.json, an id, something a plugin provides
     ("dielectric"), or one of plugins(). quick: seconds instead of up to a minute. only: one step. time_limit: longest time
-    without an answer from the plugin [s]. Raises Error if there is nothing to check."""
+    without a response from the plugin [s]. Raises Error if there is nothing to check."""
     from . import _program
 
     if not isinstance(plugin, (_core.Plugin, str, os.PathLike)):

@@ -11,7 +11,7 @@ namespace {
 
 using Shared = std::shared_ptr<Workspace>;
 
-struct ActionInfo { // a copy: what was provided, at the time of asking
+struct ActionInfo { // a copy: the state at the time of the call
     model::Action table;
     std::string plugin;
 };
@@ -31,7 +31,7 @@ Outcome run(const Shared& w, const std::string& id, nb::handle selection, const 
     how.selection = objects_of(*w, selection);
     for (const auto& [key, value] : values) {
         const auto name = nb::cast<std::string>(key);
-        const model::Param* line = entry.table->find(name); // of an unknown one run_action says what there is
+        const model::Param* line = entry.table->find(name); // run_action reports unknown ones
         how.values.set(name,
                        line ? to_value(w.get(), line->type, value, "parameter \"" + name + "\"") : scene::Value());
     }
@@ -51,17 +51,17 @@ Outcome run(const Shared& w, const std::string& id, nb::handle selection, const 
 } // namespace
 
 void bind_actions(nb::module_& m, nb::class_<Workspace>& c) {
-    nb::class_<ActionInfo>(m, "Action", "Something a plugin does to a scene.")
+    nb::class_<ActionInfo>(m, "Action", "An operation on a scene, provided by a plugin.")
         .def_prop_ro(
-            "id", [](const ActionInfo& a) { return a.table.id; }, "What run_action calls it: \"scatter\".")
+            "id", [](const ActionInfo& a) { return a.table.id; }, "Its id, as for run_action: \"scatter\".")
         .def_prop_ro(
             "label", [](const ActionInfo& a) { return a.table.label; }, "Its name in menus and in the history.")
         .def_prop_ro(
-            "tooltip", [](const ActionInfo& a) { return a.table.tooltip; }, "What it does, in a sentence.")
-        .def_ro("plugin", &ActionInfo::plugin, "Id of the plugin that brings it.")
+            "tooltip", [](const ActionInfo& a) { return a.table.tooltip; }, "One sentence about it.")
+        .def_ro("plugin", &ActionInfo::plugin, "Id of the plugin that provides it.")
         .def_prop_ro(
             "needs_selection", [](const ActionInfo& a) { return a.table.needs_selection; },
-            "True: run_action wants at least one object.")
+            "True: run_action requires at least one object.")
         .def_prop_ro(
             "parameters",
             [](const ActionInfo& a) {
@@ -72,12 +72,12 @@ void bind_actions(nb::module_& m, nb::class_<Workspace>& c) {
             },
             "Every parameter and its default.", nb::sig("def parameters(self) -> dict[str, object]"))
         .def("__repr__", [](const ActionInfo& a) { return "<restage.Action \"" + a.table.id + "\">"; });
-    nb::class_<Outcome>(m, "ActionResult", "What an action has done.")
+    nb::class_<Outcome>(m, "ActionResult", "The result of an action.")
         .def_ro("changed", &Outcome::changed, "False: it had nothing to do.")
         .def_prop_ro(
             "objects", [](const Outcome& o) { return Selection{o.in, o.objects}; },
-            "The objects it has made, or has chosen, as one.")
-        .def_ro("report", &Outcome::report, "What it said, and what was refused: a Report.")
+            "The objects that it added or selected, as one.")
+        .def_ro("report", &Outcome::report, "Its messages, and refused changes: a Report.")
         .def("__repr__", [](const Outcome& o) {
             return "<restage.ActionResult: " + std::to_string(o.objects.size()) + " objects>";
         });
@@ -90,12 +90,12 @@ void bind_actions(nb::module_& m, nb::class_<Workspace>& c) {
                  all.push_back({*entry.table, entry.plugin->manifest.id});
              return all;
          },
-         "The actions that plugins bring: a list of Action.")
+         "The actions of all loaded plugins: a list of Action.")
         .def("run_action", &run, "id"_a, "selection"_a = nb::make_tuple(), "progress"_a = nb::none(), "values"_a,
-             "Runs an action of a plugin: run_action(\"scatter\", [tree, ground], count=500, seed=3). What it does is "
+             "Runs an action of a plugin: run_action(\"scatter\", [tree, ground], count=500, seed=3). Its changes are "
              "one\n"
-             "step of the history, called by its label. selection: objects in order; the last one is the active one.\n"
-             "progress(fraction, what): called some 20 times a second; False stops, and nothing has changed.",
+             "undo step, named after its label. selection: objects in order; the last one is the active one.\n"
+             "progress(fraction, what): called about 20 times a second; False cancels it, and nothing changes.",
              nb::sig("def run_action(self, id: str, selection: collections.abc.Iterable[Object | Group | Selection] = "
                      "(), progress: collections.abc.Callable[[float, str], bool | None] | None = None, **values: "
                      "object) -> ActionResult"));

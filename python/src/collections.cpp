@@ -45,7 +45,7 @@ std::vector<std::string> names(const Collection<T>& c) {
 }
 
 template <class T>
-std::string word_of() { // its name in Python
+std::string word_of() { // the name in Python
     return std::is_same_v<T, Instance> ? "object" : std::string(kind_name<T>);
 }
 

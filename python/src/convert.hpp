@@ -57,12 +57,12 @@ using Matrix = nb::ndarray<nb::numpy, double, nb::shape<4, 4>, nb::c_contig>;
 using Box = nb::ndarray<nb::numpy, double, nb::shape<2, 3>, nb::c_contig>;
 Matrix to_numpy(const glm::dmat4&);
 Box to_numpy(const glm::dvec3& lower, const glm::dvec3& upper);
-// Anything numpy can convert to a 4x4 array, for column vectors: m @ (x, y, z, 1). The last row must be 0 0 0 1.
+// Anything that numpy can convert to a 4x4 array, for column vectors: m @ (x, y, z, 1). The last row must be 0 0 0 1.
 glm::dmat4 to_matrix(nb::handle);
 
 } // namespace restage::python
 
-// Accepts numpy arrays as three numbers as well, and tells type checkers so.
+// Also accepts numpy arrays as three numbers, and declares this to type checkers.
 namespace nanobind::detail {
 template <>
 struct type_caster<restage::python::Three> : array_caster<restage::python::Three, double, 3> {

@@ -85,7 +85,7 @@ Handle<Camera> add_camera(const Shared& w, const Three& position, const Three& t
         w->edit(insert(w->scene(), std::move(camera), "Add " + name));
         nb::cast(h).attr("look_at")(target, "position"_a = position, "up"_a = up);
         if (first) w->edit(set_active_camera(w->scene(), h.id));
-    } catch (...) { // undone completely
+    } catch (...) { // reverted completely
         if (w->scene().cameras.find(h.id)) w->edit(remove(w->scene(), h.id));
         w->end_step();
         throw;

@@ -66,7 +66,7 @@ const std::shared_ptr<Host>& Host::get() {
 void Host::begin_threads() {
     if (is_forked)
         throw Failure(
-            "this process is a fork() of one that had rendered or denoised, and a fork has none of its "
+            "this process is a fork() of one that had rendered or denoised, and a fork does not have its "
             "threads; start workers as new processes (multiprocessing.get_context(\"spawn\") or "
             "\"forkserver\"), or fork before the first render");
 #if defined(__unix__) || defined(__APPLE__)
@@ -110,7 +110,7 @@ std::vector<const plugin::Entry*> Host::load(const fs::path& folder) {
     for (const plugin::Entry* entry : registry_.entries())
         if ((entry->folder.generic_string() + '/').starts_with(prefix)) found.push_back(entry);
     flush_log();
-    if (found.empty()) throw Failure(folder.string() + ": holds no plugin (a folder with a plugin.json)");
+    if (found.empty()) throw Failure(folder.string() + ": contains no plugin (a folder with a plugin.json)");
     return found;
 }
 

@@ -19,7 +19,7 @@ namespace restage::python {
 
 class Host {
   public:
-    // Where lib/restage/plugins and share/restage are: beside the package or above it.
+    // The folder with lib/restage/plugins and share/restage: next to the package or above it.
     static void set_home(std::filesystem::path);
     static const std::filesystem::path& home();
     static const std::shared_ptr<Host>& get();
@@ -27,10 +27,10 @@ class Host {
     explicit Host(const std::filesystem::path& home);
 
     // Rendering, denoising and the material lab start threads (Embree's, Vulkan's, the denoiser's) that live on. A
-    // fork() has none of them, and waiting for one would block for ever: so these announce their start, and are
-    // refused in a child forked after that. What a session holds is not freed there either.
+    // fork() does not have them, and waiting for one would block forever: so these announce their start, and are
+    // refused in a child forked after that. Such a child does not free sessions either.
     static void begin_threads(); // throws Failure in such a child
-    static bool forked(); // is this such a child?
+    static bool forked(); // whether this is such a child
 
     Log& log() { return log_; }
     plugin::Registry& registry() { return registry_; }

@@ -36,7 +36,7 @@ void bind_place(nb::class_<Handle<T>>& c, const char* label) {
          [label](const H& h, nb::handle matrix) {
              h.change(label, [m = to_matrix(matrix)](T& thing) { thing.*Field = m; });
          },
-         "To world: array (4, 4) float64, for column vectors; it looks or shines along its +z, +y is up.",
+         "To world: array (4, 4) float64, for column vectors; it looks or emits along its +z, +y is up.",
          nb::for_getter(nb::rv_policy::automatic),
          nb::for_getter(nb::sig("def transform(self) -> numpy.typing.NDArray[numpy.float64]")),
          nb::for_setter(nb::sig("def transform(self, matrix: numpy.typing.ArrayLike, /) -> None")))
@@ -55,7 +55,7 @@ void bind_place(nb::class_<Handle<T>>& c, const char* label) {
                 h.change(label, [&](T& thing) { thing.*Field = m; });
             },
             "target"_a, "position"_a = nb::none(), "up"_a = nb::none(),
-            "Turns it towards a point, from where it is or from `position`; `up`: default the scene's.");
+            "Rotates it towards a point, from its place or from `position`; `up`: default the scene's.");
 }
 
 template <class T, class Get, class Set>
@@ -133,7 +133,7 @@ void bind_camera(nb::module_& m) {
         [](Camera& v, const std::string& x) { v.projection = projection_of(x); });
     field<Camera>(
         c, "screen_window", "Change camera",
-        "What the film shows, x0 x1 y0 y1: for an orthographic camera in scene units, else relative to fov. "
+        "The window of the film, x0 x1 y0 y1: for an orthographic camera in scene units, else relative to fov. "
         "None: from the picture's aspect; then the shorter side of an orthographic camera is 2.",
         [](const Camera& v) {
             return v.screen_window ? std::optional(Four{exact(v.screen_window->x), exact(v.screen_window->y),
@@ -156,23 +156,23 @@ void bind_camera(nb::module_& m) {
 void bind_lights(nb::module_& m) {
     bind_light(m);
     bind_camera(m);
-    nb::class_<Environment>(m, "Sky", "The current light from all around; Session.set_sky changes it.")
+    nb::class_<Environment>(m, "Sky", "The current environment; Session.set_sky changes it.")
         .def_prop_ro("name", [](const Environment& e) { return e.name; })
         .def_prop_ro(
-            "is_image", [](const Environment& e) { return bool(e.image); }, "False: one colour everywhere.")
+            "is_image", [](const Environment& e) { return bool(e.image); }, "False: a single colour.")
         .def_prop_ro(
             "mapping",
             [](const Environment& e) { return e.mapping == scene::Mapping::equirect ? "equirect" : "octahedral"; },
             "equirect (a panorama) or octahedral (square, equal-area).")
         .def_prop_ro(
             "color", [](const Environment& e) { return triple(e.scale); },
-            "Radiance of a sky of one colour, or the factor of its image.")
+            "Radiance of a single-colour sky, or the factor of its image.")
         .def_prop_ro(
             "transform", [](const Environment& e) { return to_numpy(e.light_to_world); }, nb::rv_policy::automatic,
             "Rotation: array (4, 4); a panorama's pole is +z.")
         .def_prop_ro(
             "type", [](const Environment& e) { return e.sky; },
-            "The sky plugin that makes its image (\"sunsky\"), or \"\"; Session.make_sky.")
+            "The sky plugin that generates its image (\"sunsky\"), or \"\"; see Session.make_sky.")
         .def_prop_ro(
             "values",
             [](const Environment& e) {
@@ -181,7 +181,7 @@ void bind_lights(nb::module_& m) {
                     all[nb::str(id.c_str())] = to_python(nullptr, value);
                 return all;
             },
-            nb::sig("def values(self) -> dict[str, object]"), "What was set of that plugin's parameters.")
+            nb::sig("def values(self) -> dict[str, object]"), "The values set for that plugin's parameters.")
         .def_prop_ro("hidden_from_camera", [](const Environment& e) { return e.hidden_from_camera; })
         .def("__repr__", [](const Environment& e) {
             return e.image ? "<restage.Sky \"" + e.name + "\", an image>" : std::string("<restage.Sky of one colour>");

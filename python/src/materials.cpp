@@ -95,9 +95,9 @@ void bind_parameter(nb::module_& m) {
         .def_prop_ro(
             "default", [](const Parameter& p) { return to_python({}, default_value(p.line)); }, "The default.")
         .def_prop_ro(
-            "choices", [](const Parameter& p) { return p.line.choices; }, "Of an enum: the words to choose from.")
+            "choices", [](const Parameter& p) { return p.line.choices; }, "Choices of an enum.")
         .def_prop_ro(
-            "texturable", [](const Parameter& p) { return p.line.texturable; }, "May a texture replace it?")
+            "texturable", [](const Parameter& p) { return p.line.texturable; }, "Whether a texture may replace it.")
         .def_prop_ro(
             "tooltip", [](const Parameter& p) { return p.line.tooltip; }, "One sentence about it.")
         .def("__repr__",
@@ -145,7 +145,7 @@ void bind_material(nb::module_& m) {
                 }
                 h.in->end_step();
             },
-            "values"_a, "Sets several parameters as one step of the history.")
+            "values"_a, "Sets several parameters as one undo step.")
         .def_prop_rw(
             "type", [](const MaterialHandle& h) { return h.get().type; },
             [](const MaterialHandle& h, const std::string& type) {
@@ -154,7 +154,7 @@ void bind_material(nb::module_& m) {
                     throw Failure("there is no material type \"" + type + "\"; see restage.material_types()");
                 h.in->edit(switch_material_type(h.in->scene(), h.id, type, table_of(*h.in, h.get().type), after));
             },
-            "Its type, \"dielectric\"; changing it keeps the values both have in common.")
+            "Its type, \"dielectric\"; changing it keeps the common values.")
         .def_prop_ro(
             "parameters", [](const MaterialHandle& h) { return parameters(table_of(*h.in, h.get().type)); },
             "The table of its type: a list of Parameter.")

@@ -13,7 +13,7 @@ NB_MODULE(_core, m) {
     m.def("version", &restage::version, "Restage's version. For the package itself, whose __version__ it is.");
     m.def("set_home", &Host::set_home, "folder"_a, "Where lib/restage and share/restage are. For the package itself.");
     m.def("home", &Host::home, "Where they are.");
-    nb::set_leak_warnings(false); // sessions in globals live until the process ends
+    nb::set_leak_warnings(false); // sessions in globals exist until the process ends
 
     bind_plugins(m);
     bind_textures(m);
@@ -24,9 +24,9 @@ NB_MODULE(_core, m) {
     bind_picture(m);
     nb::class_<Workspace> session(
         m, "Session",
-        "An open scene, like the one in the editor's window. Find things, change them (each change is a step "
-        "that\n"
-        "undo takes back), render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
+        "An open scene, like the one in the editor's window. Find things, change them (each change is one undo "
+        "step),\n"
+        "render, write. Close it, or use `with restage.open(...) as session`, to free the renderer.");
     bind_session(m, session);
     bind_add_texture(session);
     bind_geometry(session, object);

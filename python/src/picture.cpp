@@ -100,7 +100,7 @@ void save(const Picture& p, const std::filesystem::path& path, const std::string
     take(view::write_picture(path.string(), out, options));
 }
 
-// What notebooks show: as save() writes .png.
+// For notebooks: as written to .png by save().
 nb::bytes png_of(const Picture& p) {
     const nb::object folder = nb::module_::import_("tempfile").attr("TemporaryDirectory")();
     const auto path = std::filesystem::path(nb::cast<std::string>(folder.attr("name"))) / "picture.png";
@@ -192,7 +192,7 @@ void set_state(Picture& p, const nb::tuple& t) {
 void denoise(Picture& p, const std::string& quality, unsigned threads, const std::string& denoiser,
              const std::function<bool(double)>& ask) {
     if (quality != "fast" && quality != "balanced" && quality != "high")
-        throw Failure("there is no denoising quality \"" + quality + "\"; there are fast, balanced and high");
+        throw Failure("unknown denoising quality \"" + quality + "\"; known: fast, balanced, high");
     if (p.film.color.empty() || p.film.samples == 0) throw Failure("denoise: the picture has no samples");
     Host::begin_threads();
     const auto chosen = take(render::choose_denoiser(p.host->registry(), denoiser));
@@ -240,15 +240,15 @@ void bind_picture(nb::module_& m) {
             "size", [](const Picture& p) { return std::make_tuple(p.film.width, p.film.height); },
             "Width and height [pixel].")
         .def_prop_ro(
-            "samples", [](const Picture& p) { return p.film.samples; }, "Samples a pixel (the minimum over all).")
+            "samples", [](const Picture& p) { return p.film.samples; }, "Samples per pixel (the minimum over all).")
         .def_prop_ro(
             "relative_error", [](const Picture& p) { return view::relative_error(p.film); },
             "Root mean square of standard error over luminance, the measure of render(error=...).")
         .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
         .def_ro("seed", &Picture::seed, "Seed of its random numbers.")
-        .def_ro("first_sample", &Picture::first_sample, "Number of its first sample in a pixel; 0 unless asked for.")
+        .def_ro("first_sample", &Picture::first_sample, "Number of its first sample in a pixel; 0 unless requested.")
         .def_ro("finished", &Picture::finished, "False: a callback stopped it before its target.")
-        .def_ro("not_finite", &Picture::not_finite, "Samples left out because they were not finite: by material type.")
+        .def_ro("not_finite", &Picture::not_finite, "Samples omitted because they were non-finite, by material type.")
         .def_ro("device", &Picture::device, "The Vulkan device.")
         .def_ro("tracer", &Picture::tracer, "Name of the tracer.")
         .def("mask", &mask, "thing"_a,
@@ -266,9 +266,9 @@ void bind_picture(nb::module_& m) {
             "quality"_a = "high", "threads"_a = 0, "denoiser"_a = "", "progress"_a = nb::none(),
             "Fills `denoised`, through a denoiser plugin. quality: fast, balanced or high. denoiser: its type or the "
             "id "
-            "of\nits plugin; \"\" = the one that came with Restage. progress(fraction): called about 20 times a "
+            "of\nits plugin; \"\" = the one shipped with Restage. progress(fraction): called about 20 times a "
             "second; "
-            "on\nFalse restage.Cancelled is raised, and the picture stays as it was. Returns the picture.",
+            "on\nFalse restage.Cancelled is raised, and the picture is unchanged. Returns the picture.",
             nb::sig("def denoise(self, quality: str = 'high', threads: int = 0, denoiser: str = '', progress: "
                     "collections.abc.Callable[[float], bool | None] | None = None) -> Picture"))
         .def_ro("denoiser", &Picture::denoiser, "The denoiser of `denoised`: \"oidn high\", or \"none\".")

@@ -23,7 +23,7 @@ struct Picture {
 };
 
 // quality: fast, balanced, high. denoiser: see render::choose_denoiser. ask(fraction), with the GIL: false = throws
-// Stopped, and the picture stays as it was; empty = only Ctrl-C stops it.
+// Stopped, and the picture is unchanged; empty = only Ctrl-C stops it.
 void denoise(Picture&, const std::string& quality, unsigned threads, const std::string& denoiser = "",
              const std::function<bool(double)>& ask = {});
 void bind_picture(nb::module_&);

@@ -30,24 +30,24 @@ std::vector<PluginInfo> describe(const std::vector<const plugin::Entry*>& entrie
 }
 
 void bind_report(nb::module_& m) {
-    nb::class_<io::ReportEntry>(m, "ReportEntry", "What became of one thing in a file.")
+    nb::class_<io::ReportEntry>(m, "ReportEntry", "The fate of one thing in a file.")
         .def_prop_ro(
             "fate", [](const io::ReportEntry& e) { return io::to_string(e.fate); }, "kept, approximated or dropped.")
         .def_ro("file", &io::ReportEntry::file, "The file, or \"\".")
         .def_ro("line", &io::ReportEntry::line, "The line; 0 = the whole file.")
-        .def_ro("what", &io::ReportEntry::what, "Which thing: 'material \"oak\"'.")
+        .def_ro("what", &io::ReportEntry::what, "The thing: 'material \"oak\"'.")
         .def_ro("note", &io::ReportEntry::note, "What was lost, or \"\".")
         .def("__repr__", [](const io::ReportEntry& e) { return "<restage.ReportEntry " + io::to_string(e) + ">"; })
         .def("__str__", [](const io::ReportEntry& e) { return io::to_string(e); });
-    nb::class_<io::Report>(m, "Report", "What an import or export did to the things in a file.")
+    nb::class_<io::Report>(m, "Report", "The fates of the things in a file on import or export.")
         .def_ro("entries", &io::Report::entries, "All lines: a list of ReportEntry.")
         .def_prop_ro(
-            "kept", [](const io::Report& r) { return r.count(io::Fate::kept); }, "How many things were kept.")
+            "kept", [](const io::Report& r) { return r.count(io::Fate::kept); }, "Number of things kept.")
         .def_prop_ro(
             "approximated", [](const io::Report& r) { return r.count(io::Fate::approximated); },
-            "How many were approximated.")
+            "Number of things approximated.")
         .def_prop_ro(
-            "dropped", [](const io::Report& r) { return r.count(io::Fate::dropped); }, "How many were dropped.")
+            "dropped", [](const io::Report& r) { return r.count(io::Fate::dropped); }, "Number of things dropped.")
         .def("__len__", [](const io::Report& r) { return r.entries.size(); })
         .def("__str__",
              [](const io::Report& r) {
@@ -71,7 +71,7 @@ void bind_plugins(nb::module_& m) {
         .def_ro("id", &PluginInfo::id, "\"org.example.velvet\".")
         .def_ro("version", &PluginInfo::version, "Its own version.")
         .def_ro("kind", &PluginInfo::kind, "material, importer, exporter or denoiser.")
-        .def_ro("licence", &PluginInfo::licence, "Licence, as its manifest says.")
+        .def_ro("licence", &PluginInfo::licence, "Licence, from its manifest.")
         .def_ro("folder", &PluginInfo::folder, "Its folder.")
         .def_ro("loaded", &PluginInfo::loaded, "False: it was refused, and `reason` says why.")
         .def_ro("reason", &PluginInfo::reason, "Why it was refused, one sentence; else \"\".")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulse: long work without the GIL asks Python now and then whether to continue: Ctrl-C, and the script's
-// callback. `release` is held while the work runs; `rethrow` afterwards raises what was caught.
+// Pulse: lets Python stop long work without the GIL, by Ctrl-C or the script's callback. `release` is held while the
+// work runs; `rethrow` afterwards raises a caught exception.
 #pragma once
 
 #include "convert.hpp"
@@ -13,13 +13,13 @@ namespace restage::python {
 
 class Pulse {
   public:
-    // `ask` is called with the GIL; false = stop. An exception in it stops too. Empty: only Ctrl-C is checked.
-    // `at_once`: the first time without a wait, so that work of any length can be stopped.
+    // `ask` is called with the GIL; false = stop. An exception in it also stops. Empty: only Ctrl-C is checked.
+    // `at_once`: called the first time without a wait, so that work of any length can be stopped.
     explicit Pulse(std::function<bool()> ask = {}, bool at_once = false) : ask_(std::move(ask)) {
         if (at_once) last_ -= interval;
     }
 
-    bool keep_going() { // any thread, one at a time; cheap: Python is asked 20 times a second
+    bool keep_going() { // any thread, one at a time; cheap: Python is called 20 times a second
         if (stopped_) return false;
         const auto now = std::chrono::steady_clock::now();
         if (now - last_ < interval) return true;

@@ -22,7 +22,7 @@ struct Progress { // the callback's argument
 };
 
 struct Target {
-    std::uint32_t samples = 0; // 0 = by the others
+    std::uint32_t samples = 0; // 0 = determined by the others
     double seconds = 0, error = 0;
 };
 
@@ -30,7 +30,7 @@ double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Versions of films and settings used by renders only: no edit reaches them, so that the renderer notices each
+// Versions of films and settings for renders only, which no edit can have, so that the renderer notices each
 // change.
 scene::Version version_of_render() {
     static std::atomic<scene::Version> last = scene::Version(1) << 62;
@@ -82,7 +82,7 @@ Result<void> run(Workspace& w, const scene::Scene& scene, const Request& request
     RESTAGE_TRY(render::Renderer * renderer, use.get(request.key));
     renderer->restart(request.seed, request.first_sample);
     renderer->reset_stats();
-    bool revived = false; // a driver that stops is restarted, once
+    bool revived = false; // a stopped driver is restarted, once
     RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     const double start = now_seconds();
     auto traced = trace(*renderer, request.target, pulse, progress, out.finished);
@@ -127,7 +127,7 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     if (int(samples.has_value()) + int(seconds.has_value()) + int(error.has_value()) > 1)
         throw Failure("render: give one of samples, seconds and error");
     if ((samples && *samples == 0) || (seconds && !(*seconds > 0)) || (error && !(*error > 0)))
-        throw Failure("render: samples, seconds and error are more than 0");
+        throw Failure("render: samples, seconds and error must be above 0");
     if (size &&
         (!std::get<0>(*size) || !std::get<1>(*size) || std::get<0>(*size) > 65536 || std::get<1>(*size) > 65536))
         throw Failure("render: a size is (width, height), both between 1 and 65536");
@@ -164,7 +164,7 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     take(std::move(done));
     expose(*picture, scene.film.value.exposure);
     if (!quality.empty() && picture->film.samples > 0)
-        try { // who has stopped the render is not asked again: what there is is denoised
+        try { // after a stop the callback is not called again: the partial picture is denoised
             denoise(*picture, quality, threads, denoiser,
                     [&](double) { return pulse.stopped() || callback.is_none() || goes_on(callback(progress)); });
         } catch (const Stopped&) {
@@ -178,7 +178,7 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
 void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
     nb::class_<Progress>(m, "Progress", "The progress of a render; the argument of its callback.")
         .def_ro("fraction", &Progress::fraction, "0 to 1, an estimate.")
-        .def_ro("samples", &Progress::samples, "Samples a pixel so far.")
+        .def_ro("samples", &Progress::samples, "Samples per pixel so far.")
         .def_ro("seconds", &Progress::seconds, "Time since the first sample [s].")
         .def_ro("relative_error", &Progress::relative_error, "The current error if error is the target; else 1e30.")
         .def("__repr__", [](const Progress& p) {
@@ -190,7 +190,7 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "error"_a = nb::none(), "seed"_a = 0, "denoise"_a = false, "progress"_a = nb::none(), "threads"_a = 0,
         "max_depth"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "", "denoiser"_a = "",
         "Path-traces the scene as it is now; returns a Picture. The same seed gives the same picture.\n\n"
-        "size: (width, height) [pixel], default Session.size. Target: samples a pixel (default Session.samples), or\n"
+        "size: (width, height) [pixel], default Session.size. Target: samples per pixel (default Session.samples), or\n"
         "seconds, or error (relative standard error, 0.02). denoise: True, or fast, balanced, high. threads: 0 = all.\n"
         "progress(p): called about 20 times a second with a Progress; on False the result so far is returned "
         "and\n"

@@ -19,7 +19,7 @@ using Shared = std::shared_ptr<Workspace>;
 
 namespace {
 
-// A dict of them. What the importer does not have, or of another type, it refuses itself.
+// A dict of them. The importer refuses unknown options and wrong types.
 std::optional<ParamSet> import_options(const std::optional<nb::dict>& given) {
     if (!given) return std::nullopt;
     ParamSet options;
@@ -65,7 +65,7 @@ Handle<Material> add_material(const Shared& w, const std::string& name, const st
     try {
         w->edit(insert(w->scene(), Material{.name = name, .type = type}, "Add " + name));
         nb::cast(h).attr("update")(**values);
-    } catch (...) { // undone completely: insert and remove in one step cancel out
+    } catch (...) { // reverted completely: insert and remove in one step cancel out
         w->edit(remove(w->scene(), h.id));
         w->end_step();
         throw;
@@ -190,7 +190,7 @@ void bind_history(nb::module_& m, nb::class_<Workspace>& c) {
             "redo", [](Workspace& w) { return w.session().redo(); }, "Redoes the next step. False: there was none.")
         .def(
             "step", [](const Shared& w, std::string label) { return Step{w, std::move(label)}; }, "label"_a,
-            "with session.step(\"Restyle\"): all edits within are one step of the history.")
+            "with session.step(\"Restyle\"): all edits within are one undo step.")
         .def_prop_ro(
             "history",
             [](Workspace& w) {
@@ -200,8 +200,9 @@ void bind_history(nb::module_& m, nb::class_<Workspace>& c) {
                     labels.push_back(history.label(i));
                 return labels;
             },
-            "The labels of the steps done so far, oldest first.")
-        .def_prop_ro("modified", [](Workspace& w) { return w.session().modified(); }, "Are there unsaved changes?");
+            "The labels of the undo steps so far, oldest first.")
+        .def_prop_ro(
+            "modified", [](Workspace& w) { return w.session().modified(); }, "Whether there are unsaved changes.");
 }
 
 void bind_film(nb::class_<Workspace>& c) {
@@ -218,7 +219,7 @@ void bind_film(nb::class_<Workspace>& c) {
     c.def_prop_rw(
          "size", [](Workspace& w) { return std::make_tuple(w.scene().film.value.width, w.scene().film.value.height); },
          [film](Workspace& w, std::tuple<std::uint32_t, std::uint32_t> size) {
-             if (!std::get<0>(size) || !std::get<1>(size)) throw Failure("size: width and height are at least 1");
+             if (!std::get<0>(size) || !std::get<1>(size)) throw Failure("size: width and height must be at least 1");
              film(w, [&](Film& f) { std::tie(f.width, f.height) = size; });
          },
          "Width and height of the film [pixel].")
@@ -231,7 +232,7 @@ void bind_film(nb::class_<Workspace>& c) {
             [film](Workspace& w, const std::array<double, 4>& crop) {
                 film(w, [&](Film& f) { f.crop = glm::vec4(crop[0], crop[1], crop[2], crop[3]); });
             },
-            "The rendered part of the film, x0 x1 y0 y1 as shares from the upper left corner: (0, 1, 0, 1) = "
+            "The rendered part of the film, x0 x1 y0 y1 as fractions from the upper left corner: (0, 1, 0, 1) = "
             "all.")
         .def_prop_rw(
             "exposure", [](Workspace& w) { return exact(w.scene().film.value.exposure); },
@@ -240,11 +241,11 @@ void bind_film(nb::class_<Workspace>& c) {
         .def_prop_rw(
             "samples", [](Workspace& w) { return w.scene().settings.value.samples; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.samples = n; }); },
-            "The scene's samples a pixel.")
+            "The scene's samples per pixel.")
         .def_prop_rw(
             "max_depth", [](Workspace& w) { return w.scene().settings.value.max_depth; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.max_depth = n; }); },
-            "Longest path: vertices beyond the camera, as pbrt counts them.");
+            "Longest path: vertices beyond the camera, as in pbrt.");
 }
 
 void bind_contents(nb::class_<Workspace>& c) {
@@ -278,14 +279,14 @@ void bind_contents(nb::class_<Workspace>& c) {
             },
             "The camera to render from, or None.")
         .def_prop_ro(
-            "sky", [](Workspace& w) { return w.scene().environment.value; }, "The light from all around, or None.")
+            "sky", [](Workspace& w) { return w.scene().environment.value; }, "The environment, or None.")
         .def("set_sky", &set_sky, "image"_a = nb::none(), "color"_a = nb::none(), "strength"_a = 1.0,
              "rotation"_a = nb::none(), "hidden_from_camera"_a = nb::none(),
              "Changes the sky. image: path, or linear array (H, W, 3); square ones are equal-area octahedral maps as "
              "in\n"
-             "pbrt-v4, others panoramas (u = phi / 2 pi, row 0 = the pole). color: radiance of a sky of one colour, or "
-             "what\n"
-             "the image is multiplied by. strength: times that. rotation: about the scene's up [deg]. With neither "
+             "pbrt-v4, others panoramas (u = phi / 2 pi, row 0 = the pole). color: radiance of a single-colour sky, or "
+             "the\n"
+             "factor of the image. strength: times that. rotation: about the scene's up [deg]. With neither "
              "image nor\n"
              "color, the present sky is changed.",
              nb::sig("def set_sky(self, image: str | os.PathLike | numpy.typing.ArrayLike | None = None, "
@@ -293,7 +294,7 @@ void bind_contents(nb::class_<Workspace>& c) {
                      "rotation: float | None = None, hidden_from_camera: bool | None = None) -> None"))
         .def(
             "remove_sky", [](Workspace& w) { w.edit(set_environment(w.scene(), std::nullopt, "Remove sky")); },
-            "Removes the light from all around.")
+            "Removes the environment.")
         .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
              "A new material: add_material(\"Brass\", \"conductor\", uroughness=0.2, vroughness=0.2).")
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
@@ -305,7 +306,7 @@ void bind_contents(nb::class_<Workspace>& c) {
                      "Group | Object"))
         .def(
             "remove_unused", [](Workspace& w) { w.edit(remove_unused(w.scene())); },
-            "Removes every mesh, image, texture, material and group that nothing refers to.")
+            "Removes every mesh, image, texture, material and group that is not used.")
         .def_prop_ro(
             "bounds",
             [](Workspace& w) {
@@ -313,8 +314,8 @@ void bind_contents(nb::class_<Workspace>& c) {
                 if (b.empty()) throw Failure("the scene has no visible geometry, so there are no bounds");
                 return to_numpy(b.lower, b.upper);
             },
-            nb::rv_policy::automatic, "Axis-aligned box of what is visible: array (2, 3) [scene units].")
-        .def_prop_ro("up", [](Workspace& w) { return triple(w.up()); }, "The axis that is up, by the active camera.");
+            nb::rv_policy::automatic, "Axis-aligned box of the visible objects: array (2, 3) [scene units].")
+        .def_prop_ro("up", [](Workspace& w) { return triple(w.up()); }, "The up axis, from the active camera.");
 }
 
 } // namespace
@@ -364,10 +365,10 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
         "Opens a scene (pbrt, glTF, OBJ, PLY, STL: any format that a plugin reads) or a project (*.restage).\n"
         "base: replaces the scene that a project names. progress(fraction, what): called about 20 times a second;\n"
         "False stops, and restage.Cancelled is raised. strict=True: an error if something is approximated or dropped\n"
-        "(missing files, undefined names ...). options: of the importer, as `restage render --import-set` has them:\n"
+        "(missing files, undefined names ...). options: of the importer, as in `restage render --import-set`:\n"
         "{\"units\": \"mm\", \"up\": \"z\"} of OBJ, PLY, STL and glTF, {\"merge\": True} of OBJ, {\"scene\": "
         "\"Night\"} of\n"
-        "glTF; a project keeps them, and takes these instead. Raises restage.Error with file, line and reason.",
+        "glTF; a project stores them; these replace them. Raises restage.Error with file, line and reason.",
         nb::sig("def open(path: str | os.PathLike, base: str | os.PathLike | None = None, progress: "
                 "collections.abc.Callable[[float, str], bool | None] | None = None, strict: bool = False, options: "
                 "dict[str, str | float | bool] | None = None) -> Session"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies that plugins make.
+// Skies of plugins.
 #include "document/sky.hpp"
 #include "io/sky.hpp"
 #include "pulse.hpp"
@@ -21,7 +21,7 @@ void make_sky(const Shared& w, const std::string& type, const nb::kwargs& values
     for (const auto& [key, value] : values) {
         const auto id = nb::cast<std::string>(key);
         const model::Param* line = plugin->table->find(id);
-        if (!line) take(io::check_sky_value(*plugin->table, id, {})); // says which there are
+        if (!line) take(io::check_sky_value(*plugin->table, id, {})); // lists the known ones
         set.set(id, to_value(w.get(), line->type, value, "parameter \"" + id + "\""));
     }
     Pulse pulse([] { return true; });
@@ -44,7 +44,7 @@ void bind_sky(nb::class_<Workspace>& c) {
     c.def("make_sky", &make_sky, "type"_a, "values"_a,
           "The sky of a plugin: make_sky(\"sunsky\", elevation=12, turbidity=4). restage.sky_types() lists them and "
           "their\n"
-          "parameters. Where the sky is of that type already, values that are not given stay as they are.",
+          "parameters. If the sky is already of that type, other values are kept.",
           nb::sig("def make_sky(self, type: str, **values: float | bool | str | collections.abc.Sequence[float]) -> "
                   "None"));
 }

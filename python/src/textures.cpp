@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures: of images and of any type that a plugin brings, with values and operands checked against its table.
+// Textures: of images and of any type of a plugin, with values and operands checked against its table.
 #include "values.hpp"
 
 #include "scene/edits_texture.hpp"
@@ -123,13 +123,13 @@ void set_type(const TextureHandle& h, const std::string& type) {
 
 void bind_textures(nb::module_& m) {
     nb::class_<TextureHandle> c(m, "Texture",
-                                "A texture: a type and values by parameter id, as of a Material. t[\"uscale\"] = 2.0; "
+                                "A texture: a type and values by parameter id, like a Material. t[\"uscale\"] = 2.0; "
                                 "an operand, a parameter that\n"
                                 "is texturable, may be a number, a colour, another Texture, or the path of an image.");
     bind_handle(c, "Texture");
     c.def_prop_rw(
          "type", [](const TextureHandle& h) { return h.get().type; }, &set_type,
-         "imagemap, checkerboard, fbm, ...: see texture_types(). Changing it keeps the values both have in common.")
+         "imagemap, checkerboard, fbm, ...: see texture_types(). Changing it keeps the common values.")
         .def_prop_ro(
             "parameters", [](const TextureHandle& h) { return parameters(texture_table_of(*h.in, h.get().type)); },
             "The table of its type: a list of Parameter.")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects, groups and selections: what is placed in a scene, and the verbs they share.
+// Objects, groups and selections: the things placed in a scene, and their common operations.
 #include "workspace.hpp"
 
 #include "query/support.hpp"
@@ -54,7 +54,7 @@ GroupHandle copy_as(const GroupHandle& original, const Objects& copies, Id<Group
     return {original.in, group};
 }
 
-// The verbs of everything that represents objects.
+// The operations of everything that represents objects.
 template <class C>
 void bind_verbs(nb::class_<C>& c) {
     c.def_prop_ro(
@@ -70,7 +70,7 @@ void bind_verbs(nb::class_<C>& c) {
             "Axis-aligned box in world space: array (2, 3), lower and upper corner [scene units].")
         .def_prop_ro(
             "center", [](const C& self) { return triple(bounds_of(*self.in, objects_of(self)).center()); },
-            "Middle of the bounds, world space [scene units].")
+            "Centre of the bounds, world space [scene units].")
         .def_prop_ro(
             "extent", [](const C& self) { return triple(bounds_of(*self.in, objects_of(self)).size()); },
             "Size of the bounds along the world's axes [scene units].")
@@ -88,7 +88,7 @@ void bind_verbs(nb::class_<C>& c) {
                 const glm::dvec3 by = vec(place) - bounds_of(*self.in, ids).center();
                 self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), by)));
             },
-            "center"_a, "Moves so that the middle of the bounds is at this point, world space [scene units].")
+            "center"_a, "Moves so that the centre of the bounds is at this point, world space [scene units].")
         .def(
             "rotate",
             [](const C& self, double degrees, const std::optional<Three>& axis, const std::optional<Three>& center) {
@@ -97,7 +97,7 @@ void bind_verbs(nb::class_<C>& c) {
                 transform_about(self, glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::normalize(about)), center);
             },
             "degrees"_a, "axis"_a = nb::none(), "center"_a = nb::none(),
-            "Rotates about an axis (default: the scene's up) through a point (default: the middle of the bounds).")
+            "Rotates about an axis (default: the scene's up) through a point (default: the centre of the bounds).")
         .def(
             "scale",
             [](const C& self, const std::variant<double, Three>& factor, const std::optional<Three>& center) {
@@ -106,14 +106,14 @@ void bind_verbs(nb::class_<C>& c) {
                 transform_about(self, glm::scale(glm::dmat4(1), f), center);
             },
             "factor"_a, "center"_a = nb::none(),
-            "Scales by one number, or by three along the world's axes, about a point (default: the middle of the "
+            "Scales by one number, or by three along the world's axes, about a point (default: the centre of the "
             "bounds).")
         .def(
             "transform_by",
             [](const C& self, nb::handle matrix) {
                 self.in->edit(move_instances(self.in->scene(), objects_of(self), to_matrix(matrix)));
             },
-            "matrix"_a, "Applies a 4x4 matrix in world space, after the present transform.",
+            "matrix"_a, "Applies a 4x4 matrix in world space, after the current transform.",
             nb::sig("def transform_by(self, matrix: numpy.typing.ArrayLike) -> None"))
         .def(
             "drop",
@@ -125,8 +125,8 @@ void bind_verbs(nb::class_<C>& c) {
                     self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), -*fall * up)));
                 return fall;
             },
-            "Lets it fall until it stands on something visible. Returns how far it fell [scene units] (below 0: it "
-            "was lifted out of something), or None if nothing is below.")
+            "Lowers it onto the visible surface below. Returns the distance [scene units] (negative: it "
+            "was lifted out of something), or None if there is no surface below.")
         .def(
             "duplicate",
             [](const C& self, const Three& by) {
@@ -155,7 +155,7 @@ void bind_verbs(nb::class_<C>& c) {
                 self.in->edit(std::move(made.edit));
                 return Handle<Material>{self.in, made.material};
             },
-            "material"_a, "Gives these objects a copy of the material of their own; other objects keep theirs.")
+            "material"_a, "Gives these objects their own copy of the material; other objects keep theirs.")
         .def_prop_ro(
             "materials",
             [](const C& self) {
@@ -176,7 +176,7 @@ void bind_verbs(nb::class_<C>& c) {
                 });
             },
             [](const C& self, bool hidden) { self.in->edit(set_hidden(self.in->scene(), objects_of(self), hidden)); },
-            "True: it is in the scene, but no ray hits it.");
+            "True: it is in the scene, but rays do not hit it.");
 }
 
 } // namespace

@@ -15,7 +15,7 @@ nb::object to_python(const std::shared_ptr<Workspace>&, const scene::Value&);
 // are the workspace's; without one they are refused.
 scene::Value to_value(const Workspace*, model::ParamType, nb::handle, const std::string& who);
 
-// The type of a value without a table line: from the present value, or guessed from the new one.
+// The type of a value without a table line: from the current value, or guessed from the new one.
 model::ParamType guess_type(const scene::Value* before, nb::handle);
 
 // The lines of a material type's table; empty for types without a plugin.
@@ -29,7 +29,7 @@ struct Parameter { // of a table, for scripts
 };
 std::vector<Parameter> parameters(model::ParamTable);
 
-// str or os.PathLike: the path of a file, absolute. Refuses all else.
+// str or os.PathLike: the path of a file, made absolute. Refuses anything else.
 std::optional<std::string> to_path(nb::handle);
 
 // The image of a file, ready for an edit. [GIL, which it releases while it reads]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work of plugins for a script: without the GIL, stopped by Ctrl-C or by the script's callback.
+// Runs plugins for a script: without the GIL, stopped by Ctrl-C or by the script's callback.
 #pragma once
 
 #include "host.hpp"

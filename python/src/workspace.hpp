@@ -112,7 +112,7 @@ Objects objects_of(const Selection&);            // those that still exist
 // Any mixture of objects, groups and selections of one session.
 Objects objects_of(Workspace&, nb::handle things);
 
-// Common to all handles: id, name, ==, hash, repr. `name_of_class` for repr: "Material".
+// Common members of all handles: id, name, ==, hash, repr. `name_of_class` for repr: "Material".
 template <class T>
 void bind_handle(nb::class_<Handle<T>>& c, const char* name_of_class) {
     using H = Handle<T>;
@@ -149,7 +149,7 @@ void bind_session(nb::module_&, nb::class_<Workspace>&);
 void bind_geometry(nb::class_<Workspace>&, nb::class_<Handle<scene::Instance>>&); // meshes, new cameras and groups
 void bind_actions(nb::module_&, nb::class_<Workspace>&);
 void bind_render(nb::module_&, nb::class_<Workspace>&);
-void bind_sky(nb::class_<Workspace>&); // those that plugins make
+void bind_sky(nb::class_<Workspace>&); // those of plugins
 void bind_bsdf(nb::module_&);
 
 } // namespace restage::python

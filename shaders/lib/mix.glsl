@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The material of a hit, through mixes: a stochastic choice, exact in expectation, the same as
-// GpuScene::resolve_material makes.
+// The material of a hit, through mixes: a stochastic choice, exact in expectation, identical to
+// GpuScene::resolve_material.
 #ifndef RESTAGE_LIB_MIX
 #define RESTAGE_LIB_MIX
 #include "lib/texture.glsl"

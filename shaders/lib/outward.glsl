@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which side of a hit is out, without a Surface.
+// The outside of a hit, without a Surface.
 #ifndef RESTAGE_LIB_OUTWARD
 #define RESTAGE_LIB_OUTWARD
 #include "lib/quadric.glsl"

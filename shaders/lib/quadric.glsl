@@ -38,7 +38,7 @@ vec2 quadric_uv(QuadricData q, vec3 p) {
     return vec2(u, (theta - q.theta_min) / (q.theta_max - q.theta_min));
 }
 
-vec3 quadric_at(QuadricData q, vec2 uv) { // where it has these (u, v)
+vec3 quadric_at(QuadricData q, vec2 uv) { // the point with these (u, v)
     float phi = uv.x * q.phi_max;
     vec2 around = vec2(cos(phi), sin(phi));
     if (q.kind == QUADRIC_DISK) return vec3(mix(q.radius, q.inner, uv.y) * around, q.z_min);
@@ -61,7 +61,7 @@ void quadric_tangents(QuadricData q, vec3 p, out vec3 dpdu, out vec3 dpdv) {
     else dpdv = (q.theta_max - q.theta_min) * vec3(p.z * around, -r);
 }
 
-// Is this point of the complete quadric within its bounds?
+// Whether this point of the complete quadric is within its bounds.
 bool quadric_has(QuadricData q, vec3 p) {
     if (q.kind == QUADRIC_DISK) {
         float r = length(p.xy);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the Site of a hit, for the materials (MATERIAL_SITE) and textures (RESTAGE_TEXTURE_SITES) that ask for one.
-// Nothing of it is kept along a path.
+// Computes the Site of a hit, for materials (MATERIAL_SITE) and textures (RESTAGE_TEXTURE_SITES) that request it.
+// It is not part of the path state.
 #ifndef RESTAGE_LIB_SITE
 #define RESTAGE_LIB_SITE
 #include "lib/outward.glsl"
@@ -9,14 +9,14 @@
 #include <restage/v1/rng.glsl>
 #include <restage/v1/site.glsl>
 
-// How a point p of the plane with unit normal n moves from one pixel to the next, in world space. Exact to first order for
-// what is in the picture of a pinhole camera, and for orthographic ones; elsewhere as if the camera had turned to see p in
-// the middle of its picture.
+// The displacement, from one pixel to the next, of a point p on the plane with unit normal n, in world space. Exact to first
+// order for points visible to a pinhole camera, and for orthographic cameras; for others as if the camera were rotated to see
+// p in the middle of its picture.
 void pixel_footprint(CameraData camera, vec3 p, vec3 n, out vec3 dx, out vec3 dy) {
     vec3 x = camera.camera_to_world[0], y = camera.camera_to_world[1], z = normalize(camera.camera_to_world[2]);
     vec2 size = vec2(camera.width, camera.height);
     vec2 pixel = (camera.screen_max - camera.screen_min) / size;
-    vec3 d = z; // a ray of the pixel; the next has the direction d + pixel.x * x, or begins so much aside
+    vec3 d = z; // a ray of the pixel; the next one has direction d + pixel.x * x, or starts displaced by that
     if (CAMERA_KIND != CAMERA_ORTHOGRAPHIC) {
         x = normalize(x);
         y = normalize(y);
@@ -41,7 +41,7 @@ void pixel_footprint(CameraData camera, vec3 p, vec3 n, out vec3 dx, out vec3 dy
     dy = pixel.y * (y - d * (dot(n, y) / c));
 }
 
-// (s, t) of the v = s a + t b nearest to it.
+// (s, t) of the v = s a + t b closest to it.
 vec2 coordinates(vec3 v, vec3 a, vec3 b) {
     float aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), va = dot(v, a), vb = dot(v, b);
     float det = aa * bb - ab * ab;
@@ -86,7 +86,7 @@ Site make_site(SceneData scene, InstanceData inst, uint prim, vec2 bary, vec3 p,
     return site;
 }
 
-// The same where there is no more than the hit.
+// Likewise from the hit only.
 Site site_of_hit(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
     vec3 p;
     if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u) {

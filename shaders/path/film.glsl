@@ -29,7 +29,7 @@ bool film_add(inout FilmPixel f, vec3 c) {
     return fits;
 }
 
-// Of a sample that hits nothing. weight: of the pixel filter; < 0: this surface is not a guide.
+// For a sample that hits nothing. weight: of the pixel filter; < 0: this surface is not a guide.
 GuideSample guide_nothing(float weight) {
     GuideSample g;
     g.albedo = g.normal = vec3(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights without a surface (scene/light_kinds.hpp): what one sends to a point, unoccluded.
+// Lights without a surface (scene/light_kinds.hpp): the unoccluded light at a point.
 #ifndef RESTAGE_SHARED_LAMPS_H
 #define RESTAGE_SHARED_LAMPS_H
 #include "shared/functions.h"
@@ -14,11 +14,12 @@ RESTAGE_SHARED_BEGIN
 
 struct LampRay {
     vec3 wi; // unit, towards the lamp
-    float dist; // to it; 1e30 = infinitely far; 0 = the point is the lamp, which sends nothing there
+    float dist; // to it; 1e30 = infinitely far; 0 = the point is the lamp, which gives no light there
     float amount; // irradiance at normal incidence, in multiples of the light's value
 };
 
-// position; axis: unit, the way it shines; cone: cosine of the edge, of where it begins to fade, and 1 = quartic.
+// position; axis: unit, the direction of emission; cone: cosine of the edge, of where it begins to fade, and 1 =
+// quartic.
 RESTAGE_INLINE LampRay lamp_ray(uint lamp, vec3 position, vec3 axis, vec3 cone, vec3 p) {
     if (lamp == LAMP_DISTANT) return LampRay(-axis, 1e30f, 1.0f);
     vec3 d = position - p;

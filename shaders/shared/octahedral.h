@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Equal-area octahedral map between the sphere and the unit square, in whose middle is +z: Clarberg 2008; pbrt 4ed,
+// Equal-area octahedral map between the sphere and the unit square, with +z in the middle: Clarberg 2008; pbrt 4ed,
 // 3.8.3, with the exact arc tangent.
 #ifndef RESTAGE_SHARED_OCTAHEDRAL_H
 #define RESTAGE_SHARED_OCTAHEDRAL_H
@@ -33,7 +33,7 @@ RESTAGE_INLINE RESTAGE_REAL2 direction_to_octahedral(RESTAGE_REAL3 w) { // of a 
     }
     return 0.5 * (RESTAGE_REAL2(w.x < 0.0 ? -u : u, w.y < 0.0 ? -v : v) + 1.0);
 }
-// A point up to one square outside, where the map goes on (pbrt 4ed, fig. 3.22).
+// A point up to one square outside, where the map continues (pbrt 4ed, fig. 3.22).
 RESTAGE_INLINE RESTAGE_REAL2 octahedral_wrap(RESTAGE_REAL2 p) {
     if (p.x < 0.0 || p.x > 1.0) p = RESTAGE_REAL2(p.x < 0.0 ? -p.x : 2.0 - p.x, 1.0 - p.y);
     if (p.y < 0.0 || p.y > 1.0) p = RESTAGE_REAL2(1.0 - p.x, p.y < 0.0 ? -p.y : 2.0 - p.y);

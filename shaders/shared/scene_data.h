@@ -26,9 +26,9 @@ RESTAGE_UINT(MATERIAL_MIX, 1u);
 // The first word of an operation of a texture's program
 RESTAGE_UINT(TEXTURE_KIND, 255u); // mask: the type's index in this scene + 1
 RESTAGE_UINT(TEXTURE_LITERAL, 0u); // the kind of a constant: three words follow
-RESTAGE_UINT(TEXTURE_OP_DATA, 256u); // what it gives is a number's
+RESTAGE_UINT(TEXTURE_OP_DATA, 256u); // its value is used as a number
 RESTAGE_UINT(TEXTURE_OP_SECOND_UV, 512u);
-RESTAGE_UINT(TEXTURE_OP_FIRST_OPERAND, 65536u); // and the bits above: a texturable parameter that is on the stack
+RESTAGE_UINT(TEXTURE_OP_FIRST_OPERAND, 65536u); // this bit and the bits above: a texturable parameter is on the stack
 RESTAGE_UINT(WRAP_REPEAT, 0u);
 RESTAGE_UINT(WRAP_BLACK, 1u);
 RESTAGE_UINT(WRAP_CLAMP, 2u);

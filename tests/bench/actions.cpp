@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An action of a plugin over a large document: 10,000 copies scattered over hills of 100,352 triangles. Its run, the
-// edit it becomes, undo and redo, what the live picture needs to follow, and memory.
+// An action of a plugin on a large document: 10,000 copies scattered over hills of 100,352 triangles. Its run, applying
+// its edit, undo and redo, updating the renderer, and memory.
 #include "document/actions.hpp"
 #include "bench.hpp"
 #include "scene/bounds.hpp"
@@ -33,7 +33,7 @@ std::shared_ptr<const MeshData> hills(std::uint32_t cells) {
     return data;
 }
 
-// The most memory this process has had since reset_peak(); 0 where the system does not say.
+// Peak memory of this process since reset_peak(); 0 if the system does not report it.
 std::uint64_t peak_bytes() {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In a file of its own, so that compilers see only pairs of new and delete elsewhere.
+// In a separate file, so that compilers see only pairs of new and delete elsewhere.
 #include "allocations.hpp"
 
 #include <atomic>

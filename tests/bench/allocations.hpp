@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often the program has called operator new.
+// Number of calls of operator new by the program.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,7 @@ struct Options { // of all measurements
     int runs = 3;
     bool quick = false;
     unsigned threads = 0;
-    std::uint32_t samples = 256; // a pixel, where error curves end
+    std::uint32_t samples = 256; // per pixel, at the end of error curves
 };
 
 Json measure_rays(const Options&);

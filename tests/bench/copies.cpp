@@ -39,7 +39,7 @@ Json measure_copies(const Options& o) {
     for (const std::uint32_t count : {20'000u, 100'000u}) {
         std::vector<Id<Instance>> spheres;
         Scene scene = crowd(count, 4, spheres);
-        for (const Id<Instance> id : spheres) { // as in files: too long to lie within the string
+        for (const Id<Instance> id : spheres) { // as in files: too long for the small-string buffer
             Instance named = scene.instances[id];
             named.name = "a sphere of the crowd, number " + std::to_string(id.value);
             scene.instances.set(id, std::move(named), scene.clock);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays a second among cards that stand like leaves: opaque, cut out by a texture with native code, and by the same
-// texture without it, whose hits the device decides.
+// Rays per second among cards arranged like leaves: opaque, cut out by a texture with native code, and by the same
+// texture without it, whose hits are decided on the device.
 #include "bench.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>

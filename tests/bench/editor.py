@@ -36,7 +36,7 @@ def choose_type(editor, name):
 
 
 def new_type(editor, name):
-    """The latency of a type whose code is in no cache; and when it, not its stand-in, is shown [s]."""
+    """The latency of a type whose code is not cached; and when it, not its stand-in, is shown [s]."""
     started = time.monotonic()
     row = during(editor, lambda: choose_type(editor, name))
     editor.wait(lambda s: s["view"]["current"] and not s["view"]["compiling"], "the new code", 120)

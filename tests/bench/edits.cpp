@@ -25,7 +25,7 @@ Json measure_edits(const Options& o) {
     using namespace scene;
     Plugins plugins;
     const auto renderer = plugins.renderer({.threads = o.threads});
-    auto& functions = const_cast<VolkDeviceTable&>(renderer->device().vk()); // to count, not to change
+    auto& functions = const_cast<VolkDeviceTable&>(renderer->device().vk()); // to count: these do not change it
     create_pipelines = std::exchange(functions.vkCreateComputePipelines, count_pipelines);
 
     std::vector<Id<Instance>> spheres;
@@ -79,7 +79,7 @@ Json measure_edits(const Options& o) {
                             {"pipelines", pipelines - made},
                             {"mesh_structures_built", embree_scenes_made() - built}});
             const auto before = pipelines;
-            check(renderer->trace(1)); // pipelines are made here when they are needed
+            check(renderer->trace(1)); // pipelines are built here on demand
             runs.back()["pipelines"] = runs.back()["pipelines"].get<std::uint64_t>() + pipelines - before;
         }
         rows.push_back({{"edit", kind.name}, {"runs", runs}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error against samples and time: renders a scene progressively and takes relMSE to a reference at powers of two, for
-// each way of finding light, Russian roulette on and off, several seeds; raw and denoised.
+// Error over samples and time: renders a scene progressively and computes relMSE against a reference at powers of two,
+// for each light sampling strategy, Russian roulette on and off, several seeds; raw and denoised.
 #include "bench.hpp"
 #include "io/image_compare.hpp"
 #include "io/image_file.hpp"
@@ -22,12 +22,12 @@ struct Config {
     bool denoised;
 };
 
-constexpr float clip = 0.001f; // as tests/golden/references.py
+constexpr float clip = 0.001f; // as in tests/golden/references.py
 
 struct Error {
     double rel_mse = 0, trimmed = 0;
 };
-// relMSE, and the same without the thousandth of the pixels that differ most: one sample of a bright light at its edge,
+// relMSE, and likewise without the thousandth of the pixels that differ most: one sample of a bright light at its edge,
 // or one firefly, otherwise decides the mean of all.
 Error error_of(scene::PixelData a, scene::PixelData reference) {
     Error e{.rel_mse = take(io::compare_images(a, reference, {.clip = clip})).rel_mse};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "A scene pays only for what it uses": the Cornell box alone; with an object of every material type where no ray can
-// reach it; and with every feature that shaders are specialised for as well.
+// Unused features must be free: the Cornell box alone; with an unreachable object of every material type; and also with
+// every feature that shaders are specialised for.
 #include "bench.hpp"
 #include "render/scene_builder.hpp"
 #include "scenes.hpp"
@@ -44,7 +44,7 @@ void add_every_type(Scene& scene, const plugin::Registry& registry) {
     }
 }
 
-// Environment (all but black), lens (all but a pinhole), a medium, a tabulated filter, a textured and bumped diffuse.
+// Environment (nearly black), lens (nearly a pinhole), a medium, a tabulated filter, a textured and bumped diffuse.
 void add_every_feature(Scene& scene) {
     scene.environment = {Environment{.name = "night", .scale = glm::vec3(1e-9f)}, ++scene.clock};
     Camera camera = scene.cameras[scene.active_camera.value];

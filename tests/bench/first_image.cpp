@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the time to a file's first picture goes: one sample a pixel at 640x360.
+// Breakdown of the time to a file's first picture: one sample per pixel at 640x360.
 #include "bench.hpp"
 #include "io/import.hpp"
 

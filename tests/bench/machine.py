@@ -42,7 +42,7 @@ def commit():
 
 
 class Watch:
-    """How busy the machine was with other things: [with] Watch() as w: ...; then w.load_before and w.others_cpu, the share of all
+    """The load of the machine by other processes: [with] Watch() as w: ...; then w.load_before and w.others_cpu, the share of all
     cores that went to processes which are not our children."""
 
     def __enter__(self):

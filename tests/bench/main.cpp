@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restage_bench: one measurement a call, its figures as JSON on stdout. tests/bench/run.py calls it.
+// restage_bench: one measurement per call, its figures as JSON on stdout. tests/bench/run.py calls it.
 #include "bench.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,8 +16,8 @@ int main(int argc, char** argv) {
     program.add_option("--threads", o.threads, "0 = all")->capture_default_str();
     program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at half of it")
         ->capture_default_str();
-    program.add_subcommand("rays", "Rays a second in the room")->callback([&] { result = measure_rays(o); });
-    program.add_subcommand("cutouts", "Rays a second among cards: opaque, cut out by native code, by GLSL alone")
+    program.add_subcommand("rays", "Rays per second in the room")->callback([&] { result = measure_rays(o); });
+    program.add_subcommand("cutouts", "Rays per second among cards: opaque, cut out by native code, by GLSL only")
         ->callback([&] { result = measure_cutouts(o); });
     program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });
     program.add_subcommand("copies", "Copies of a scene of many objects, and a frame of a drag")->callback([&] {
@@ -34,10 +34,10 @@ int main(int argc, char** argv) {
     program.add_subcommand("multiscatter", "The cost of multiple scattering, by material")->callback([&] {
         result = measure_multiscatter(o);
     });
-    auto* first = program.add_subcommand("first-image", "Where the time to a file's first picture goes");
+    auto* first = program.add_subcommand("first-image", "Breakdown of the time to a file's first picture");
     first->add_option("SCENE", scene)->required();
     first->callback([&] { result = measure_first_image(scene); });
-    auto* standard = program.add_subcommand("standard", "Samples a second and error of cornell or room");
+    auto* standard = program.add_subcommand("standard", "Samples per second and error of cornell or room");
     standard->add_option("NAME", scene)->required();
     standard->add_option("--folder", folder, "Where references are kept")->required();
     standard->add_option("--reference-spp", reference_spp)->capture_default_str();

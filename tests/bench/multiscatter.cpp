@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cost of `multiscatter`: the two boxes of the Cornell box in each material that has it, at alpha 0.5, without and
-// with.
+// The cost of `multiscatter`: the two boxes of the Cornell box in each material that supports it, at alpha 0.5, without
+// and with it.
 #include "bench.hpp"
 #include "scenes.hpp"
 
@@ -67,7 +67,7 @@ Json measure_multiscatter(const Options& o) {
             check(renderers[on]->trace(1));
         }
         const std::uint32_t spp = o.quick ? 4 : 16;
-        for (int run = 0; run < o.runs; ++run) // they take turns
+        for (int run = 0; run < o.runs; ++run) // alternating
             for (const bool on : {false, true}) {
                 renderers[on]->reset();
                 const Seconds t = time([&] { check(renderers[on]->trace(spp)); });

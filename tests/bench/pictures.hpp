@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film images as pictures that io/image_compare.hpp understands.
+// Film images as pictures for io/image_compare.hpp.
 #pragma once
 
 #include "render/film.hpp"

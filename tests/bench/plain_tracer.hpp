@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A direct implementation with Embree and C++ alone, for the room's three materials: one path after the other, no
+// A direct implementation with only Embree and C++, for the room's three materials: one path after the other, no
 // wavefront, no shaders. The same estimator as the engine's (light sampling and BSDF sampling with the power heuristic,
-// Russian roulette), so about the same rays; numbers are pseudo-random. A yardstick, not a renderer.
+// Russian roulette), so about the same rays; numbers are pseudo-random. For comparison, not a renderer.
 #pragma once
 
 #include "base/jobs.hpp"

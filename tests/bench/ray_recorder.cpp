@@ -25,7 +25,7 @@
 #define FORWARD scene, ray, args
 #endif
 
-// NOLINTBEGIN(bugprone-reserved-identifier): the linker's --wrap asks for these names
+// NOLINTBEGIN(bugprone-reserved-identifier): required by the linker's --wrap
 extern "C" {
 void __real_rtcIntersect1(INTERSECT_ARGS);
 void __real_rtcOccluded1(OCCLUDED_ARGS);
@@ -122,7 +122,7 @@ std::uint64_t trace_plainly(const std::vector<RecordedRay>& rays, Jobs& jobs) {
 
 } // namespace restage::bench
 
-// NOLINTBEGIN(bugprone-reserved-identifier): the linker's --wrap asks for these names
+// NOLINTBEGIN(bugprone-reserved-identifier): required by the linker's --wrap
 extern "C" {
 void __wrap_rtcIntersect1(INTERSECT_ARGS) {
     if (restage::bench::recording.load(std::memory_order_relaxed)) restage::bench::note(scene, ray->ray, false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Notes every ray the engine hands to Embree, in the order of each thread, so that the same rays can be traced again
-// without the engine. The linker puts it between the two (see CMakeLists.txt): the engine is unaware of it.
+// Records every ray the engine passes to Embree, in the order of each thread, so that the same rays can be retraced
+// without the engine. The linker inserts it between the two (see CMakeLists.txt): the engine is unaware of it.
 #pragma once
 
 #include "base/jobs.hpp"
@@ -23,7 +23,7 @@ void start_recording();
 std::vector<RecordedRay> stop_recording(); // threads one after the other
 
 // Traces them in a plain loop over rtcIntersect1 and rtcOccluded1, against the scene they were recorded on.
-// Returns how many hit something.
+// Returns the number of hits.
 std::uint64_t trace_plainly(const std::vector<RecordedRay>& rays, Jobs& jobs);
 
 } // namespace restage::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays a second in the room, and what the whole frame costs against Embree alone on the very same rays.
+// Rays per second in the room, and the cost of the whole frame relative to Embree alone on the same rays.
 #include "bench.hpp"
 #include "plain_tracer.hpp"
 #include "ray_recorder.hpp"

@@ -31,7 +31,7 @@ class Bench:
         self.program = args.restage.parent / "restage_bench"
         self.options = (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
         self.quick, self.runs = args.quick, args.runs
-        # References are good for one commit only; an edited checkout makes its own each time.
+        # References are valid for one commit only; a modified checkout recomputes its own each time.
         self.made = tempfile.TemporaryDirectory()
         commit = machine.commit()
         self.references = pathlib.Path(self.made.name) if commit.endswith("+") else ROOT / "build/bench-references" / commit
@@ -131,7 +131,7 @@ ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "fea
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--restage", type=pathlib.Path, default=ROOT / "build/bin/restage", help="the program; restage_bench is beside it")
+    parser.add_argument("--restage", type=pathlib.Path, default=ROOT / "build/bin/restage", help="the program; restage_bench is in the same folder")
     parser.add_argument("--out", type=pathlib.Path, help="default docs/bench; with --quick build/bench-quick")
     parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two standard scenes that renderers are compared on: samples a CPU-second, and relMSE times CPU seconds at 16
-// samples a pixel against a reference of our own in two halves, whose noise is subtracted.
+// The two standard scenes for comparing renderers: samples per CPU-second, and relMSE times CPU seconds at 16
+// samples per pixel against our own reference in two halves, whose noise is subtracted.
 #include "bench.hpp"
 #include "io/image_file.hpp"
 #include "pictures.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the tests of broken input: folders, the plugins, and a watch over time and memory.
+// Shared by the tests of broken input: folders, the plugins, and limits on time and memory.
 #pragma once
 
 #include "base/log.hpp"

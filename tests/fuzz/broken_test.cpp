@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-// A broken file never justifies one allocation of this size: AddressSanitizer then ends the test.
+// A broken file never justifies a single allocation of this size: AddressSanitizer then ends the test.
 // NOLINTBEGIN(bugprone-reserved-identifier): the name is AddressSanitizer's
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
@@ -52,7 +52,7 @@ std::vector<Case> cases(const std::string& folder) {
     return result;
 }
 
-// Does the report say that something with this text was left out?
+// Whether the report has a dropped thing with this text.
 bool drops(const io::ImportedScene& imported, const std::string& text) {
     const auto& entries = imported.report.entries;
     return std::any_of(entries.begin(), entries.end(), [&](const io::ReportEntry& e) {
@@ -187,12 +187,12 @@ TEST_CASE("broken: OBJ, STL and glTF models") {
     CHECK(count >= 70);
 }
 
-TEST_CASE("broken: PLY files opened by themselves") {
+TEST_CASE("broken: PLY files opened directly") {
     const test::Importers importers;
     for (const Case& c : cases("ply")) {
         CAPTURE(c.path.filename().string());
         const auto result = io::import_scene(c.path.string(), importers.registry);
-        if (c.path.filename() == "no-faces.ply") { // points: they get a thickness
+        if (c.path.filename() == "no-faces.ply") { // points get a thickness
             CHECK(result);
             continue;
         }

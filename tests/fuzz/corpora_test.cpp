@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every scene, model and picture of RESTAGE_CORPORA, RESTAGE_CASES, RESTAGE_SCENES and tests/data is opened: read or
-// refused with a message. Made for AddressSanitizer and UndefinedBehaviorSanitizer, which end the process at a
+// refused with a message. Intended for AddressSanitizer and UndefinedBehaviorSanitizer, which end the process at a
 // finding.
 #include "broken_files.hpp"
 #include "io/image_file.hpp"
@@ -61,7 +61,7 @@ TEST_CASE("every file of the corpora opens, or is refused with a message", "[cor
             }
             if (!error.empty()) {
                 ++counts[ending].refused;
-                CAPTURE(error); // names the file, or one beside it that the file includes
+                CAPTURE(error); // names the file, or an included one in the same folder
                 CHECK(error.find(entry.path().parent_path().filename().string()) != std::string::npos);
                 CHECK(error.find("a bug, please report it") == std::string::npos);
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the fuzz targets of importers: a host that takes everything, and one file a process.
+// Shared by the fuzz targets of importers: a host that accepts everything, and one file per process.
 #pragma once
 
 #include "common/picture.hpp"
@@ -54,7 +54,7 @@ inline RestageSceneWriter1 host() {
             }};
 }
 
-// Four texels for any bytes: the decoders have a target of their own (fuzz_image).
+// Four texels for any bytes: the decoders have their own target (fuzz_image).
 inline const RestageHost& services() {
     static constexpr uint8_t texels[16] = {0, 255, 128, 1, 255, 255, 255, 255, 9, 9, 9, 0, 130, 120, 250, 255};
     static const RestageImageService1 images{
@@ -72,8 +72,8 @@ inline const RestageHost& services() {
     return host;
 }
 
-// Writes the bytes to a file with that extension and hands it to the importer. What follows a line "@@" goes into a
-// file of its own, which the first can name: "beside.mtl", or "beside.bin".
+// Writes the bytes to a file with that extension and passes it to the importer. Text after a line "@@" goes into a
+// second file, which the first can reference: "beside.mtl" or "beside.bin".
 inline void import(const uint8_t* data, std::size_t size, const std::string& extension,
                    int (*load)(const char*, const RestageSceneWriter1*)) {
     static const std::filesystem::path folder = "/tmp/restage-fuzz-" + std::to_string(getpid());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer on an importer of models: RESTAGE_FUZZ_IMPORTER is its namespace, RESTAGE_FUZZ_EXTENSION the file's ending.
-// Run: fuzz_obj tests/data/models -rss_limit_mb=2048
+// libFuzzer on an importer of models: RESTAGE_FUZZ_IMPORTER is its namespace, RESTAGE_FUZZ_EXTENSION the file's
+// extension. Run: fuzz_obj tests/data/models -rss_limit_mb=2048
 #include "fuzz_host.hpp"
 
 #include <load.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Good files, damaged at random with fixed seeds: the result is always a scene or an error with a message, never a
-// crash, a leak (under AddressSanitizer), a long wait or much memory. RESTAGE_MUTATIONS raises the number a file.
+// crash, a leak (under AddressSanitizer), a long wait or much memory. RESTAGE_MUTATIONS raises the number per file.
 
 #include "broken_files.hpp"
 #include "io/image_file.hpp"
@@ -26,7 +26,7 @@ unsigned mutations(unsigned usual) {
 using Random = std::mt19937;
 std::size_t below(Random& random, std::size_t limit) { return limit ? random() % limit : 0; }
 
-// Typical damage: cuts, repeats, flipped bits, numbers at the edge, pieces moved elsewhere.
+// Typical damage: cuts, repeats, flipped bits, extreme numbers, pieces moved elsewhere.
 std::string damage(std::string bytes, Random& random) {
     static constexpr std::string_view edges[] = {"0",    "-1",     "1e9", "1e39", "4294967296", "2147483647", "nan",
                                                  "-inf", "1e-400", "]",   "[",    "\"",         "#",          "\n"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material's library is reloaded a hundred times, and so are the other kinds: nothing leaks. Made for
+// A material's library is reloaded a hundred times, and so are the other kinds: nothing leaks. Intended for
 // AddressSanitizer, whose leak checker runs at the end; without it, only loading and unloading are tested.
 #include "base/log.hpp"
 #include "io/services.hpp"
@@ -50,7 +50,7 @@ TEST_CASE("a hundred reloads of a material's library leak nothing", "[reload]") 
     no_leaks();
 }
 
-TEST_CASE("registries that come and go leak nothing", "[reload]") {
+TEST_CASE("creating and destroying registries leaks nothing", "[reload]") {
     Log silent([](LogLevel, std::string_view) {});
     for (int i = 0; i < 100; ++i) {
         plugin::Registry registry(silent, io::with_services());

@@ -62,7 +62,7 @@ def compare(color, error, halves):
         [[min(BLOCK, ours.shape[0] - y) * min(BLOCK, ours.shape[1] - x) for x in range(0, ours.shape[1], BLOCK)]
          for y in range(0, ours.shape[0], BLOCK)])
     block_variance = (blocks(error.astype(np.float64) ** 2) + blocks(pixels)) / count
-    # A block with few bright samples estimates its own noise badly: at least 0.4 % of the block, or of the mean.
+    # A block with few bright samples estimates its own noise poorly: at least 0.4 % of the block, or of the mean.
     floor = 0.004 * np.maximum(blocks(reference), 0.25 * mean)
     z = (blocks(ours) - blocks(reference)) / np.sqrt(block_variance + floor ** 2)
     return 100 * (ours.mean() / mean - 1), 100 * sigma / mean, float((np.abs(z) < 4).mean())

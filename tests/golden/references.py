@@ -57,7 +57,7 @@ def main():
             failed += 1
             continue
         seconds = float(render.stderr.split(" spp in ")[-1].split(" s,")[0])
-        # The reader of the table judges the shares of blocks: no pass mark here.
+        # The fractions of blocks are for the reader of the table: no threshold here.
         compare = run([args.restage, "compare", f"{out}.exr", "--reference-halves", *halves, "--clip", "0.001", "--json",
                        "--min-blocks", "0", "--z-map", f"{out}.z.png", "--diff", f"{out}.diff.png"])
         if compare.returncode:

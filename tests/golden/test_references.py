@@ -17,11 +17,11 @@ SCENES = ("coffee cornell-box dining-room kitchen living-room material-testball 
 V3 = ["coffee", "cornell-box", "kitchen", "living-room", "material-testball", "teapot-full", "veach-mis"]
 RESTAGE = os.environ.get("RESTAGE_BIN", str(references.ROOT / "build/bin/restage"))
 
-# Mean luminance [%] and share of 8x8 blocks with |z| < 3 [%].
+# Mean luminance [%] and percentage of 8x8 blocks with |z| < 3.
 LIMITS = {name: (2.0, 95.0) for name in SCENES}
 LIMITS["coffee"] = (3.5, 93.0)       # saturated orange under a coat: RGB against spectra (docs/accuracy.md)
-LIMITS["cornell-box"] = (2.0, 88.0)  # the same, between red and green walls
-LIMITS["veach-bidir"] = (6.0, 85.0)  # light that is hard to find: noise that few samples do not show
+LIMITS["cornell-box"] = (2.0, 88.0)  # likewise, between red and green walls
+LIMITS["veach-bidir"] = (6.0, 85.0)  # light that is hard to find: noise not estimated with few samples
 LIMITS["water-caustic"] = None       # path tracing cannot find this light: only tests that it renders
 
 pytestmark = pytest.mark.skipif("RESTAGE_SCENES" not in os.environ, reason="RESTAGE_SCENES is not set")

@@ -69,7 +69,7 @@ struct Push {
     VkDeviceAddress tlas, out;
 };
 
-// Rays go down from z = 1 at a grid over [-1, 1]^2; the callable multiplies `what` by 10 in even columns, 100 in odd
+// Rays go down from z = 1 on a grid over [-1, 1]^2; the callable multiplies `what` by 10 in even columns, 100 in odd
 // ones.
 class Scene {
   public:

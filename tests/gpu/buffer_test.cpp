@@ -90,7 +90,7 @@ TEST_CASE("too large a buffer is an error with sizes, not a crash", "[buffer]") 
     device.silent();
 }
 
-TEST_CASE("running out of memory is an error, and the device goes on", "[buffer]") {
+TEST_CASE("running out of memory is an error, and the device stays usable", "[buffer]") {
     TestDevice device;
     if (device->info().type != DeviceType::cpu) SKIP("would fill a real card's memory");
     // Nothing is touched, so this takes address space only; the budget ends it.

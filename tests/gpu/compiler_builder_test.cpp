@@ -63,7 +63,7 @@ TEST_CASE("the builder delivers finished, distinct pipelines while the device wo
     device.silent();
 }
 
-TEST_CASE("the future reports a shader error, and the builder goes on", "[builder]") {
+TEST_CASE("the future reports a shader error, and the builder stays usable", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     PipelineBuilder builder(*device, compiler, 1);
@@ -76,7 +76,7 @@ TEST_CASE("the future reports a shader error, and the builder goes on", "[builde
     device.silent();
 }
 
-TEST_CASE("a destroyed builder answers every request", "[builder]") {
+TEST_CASE("a destroyed builder completes every request", "[builder]") {
     TestDevice device;
     const ShaderCompiler compiler({});
     std::vector<std::future<Result<ComputePipeline>>> futures;

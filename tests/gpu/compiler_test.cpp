@@ -43,7 +43,7 @@ TEST_CASE("an error points at the line of the text itself", "[compiler]") {
                StartsWith("wave.comp:4: "));
 }
 
-TEST_CASE("an error points at the included file, on disk and in memory, and lines after an include stay right",
+TEST_CASE("an error points at the included file, on disk and in memory, and lines after an include are correct",
           "[compiler]") {
     const TemporaryFolder folder;
     folder.write("plugin oak/oak.glsl", "// oak\n#include \"grain.glsl\"\nfloat oak() { return grain() * zz; }\n");
@@ -95,7 +95,7 @@ TEST_CASE("#pragma once includes once, also under #if and in a cycle", "[compile
     CHECK(compiler.compile({.name = "m",
                             .text = head + "#if 0\n#include \"a.glsl\"\n#endif\n#include \"a.glsl\"\n" + use,
                             .files = files}));
-    // Without it: twice is twice, and a cycle is an error.
+    // Without it: included twice, and a cycle is an error.
     CHECK_THAT(error_of(compiler, {.name = "m",
                                    .text = head + "#include \"c.glsl\"\n#include \"c.glsl\"\nvoid main() {}\n",
                                    .files = {{"c.glsl", "int c() { return 1; }\n"}}}),
@@ -106,7 +106,7 @@ TEST_CASE("#pragma once includes once, also under #if and in a cycle", "[compile
                StartsWith("c.glsl:2: ") && ContainsSubstring("includes itself"));
 }
 
-TEST_CASE("files are searched in order: memory, beside the includer, the source's folders, the compiler's",
+TEST_CASE("files are searched in order: memory, the includer's folder, the source's folders, the compiler's",
           "[compiler]") {
     const TemporaryFolder folder;
     folder.write("late/f.glsl", "#define WHO 4\n");
@@ -132,7 +132,7 @@ TEST_CASE("files are searched in order: memory, beside the includer, the source'
     CHECK(who("#include \"f.glsl\"", {}, false) == 4);
 }
 
-TEST_CASE("files of a plugin include the library and each other, and reach nothing else", "[compiler]") {
+TEST_CASE("files of a plugin can include only the library and each other", "[compiler]") {
     const TemporaryFolder folder;
     folder.write("shaders/restage/v1/wood.glsl", "#include \"lib/rings.glsl\"\n#define WOOD 1\n");
     folder.write("shaders/lib/rings.glsl", "#define RINGS 1\n");
@@ -172,7 +172,7 @@ TEST_CASE("files of a plugin include the library and each other, and reach nothi
                StartsWith("main:3: cannot find the file oak.glsl"));
 }
 
-TEST_CASE("the files of a shader are listed, each once", "[compiler]") {
+TEST_CASE("the files of a shader are listed once each", "[compiler]") {
     const TemporaryFolder folder;
     folder.write("a.glsl", "#pragma once\n#include \"b.glsl\"\n");
     folder.write("b.glsl", "#pragma once\n");
@@ -183,7 +183,7 @@ TEST_CASE("the files of a shader are listed, each once", "[compiler]") {
                                      std::filesystem::canonical(folder.path() / "b.glsl")});
 }
 
-TEST_CASE("the cache returns compiled code, and notices every change", "[compiler]") {
+TEST_CASE("the cache returns compiled code, and detects every change", "[compiler]") {
     const TemporaryFolder folder;
     folder.write("part.glsl", "#define N 1\n");
     const ShaderCompilerOptions options{.include_dirs = {folder.path()}, .cache_dir = folder.path() / "cache"};
@@ -216,7 +216,7 @@ TEST_CASE("the cache returns compiled code, and notices every change", "[compile
     CHECK_FALSE(value(ShaderCompiler(plain).compile(source)).from_cache);
 }
 
-TEST_CASE("a damaged cache entry is compiled again", "[compiler]") {
+TEST_CASE("a damaged cache entry is recompiled", "[compiler]") {
     const TemporaryFolder folder;
     const ShaderCompiler compiler({.cache_dir = folder.path() / "cache"});
     const ShaderSource source{.name = "m", .text = head + "void main() {}\n"};
@@ -257,7 +257,7 @@ TEST_CASE("many threads compile at once into one cache", "[compiler]") {
     CHECK(words[0] != words[1]);
 }
 
-TEST_CASE("a shader asks its device to preserve NaN, once, and stays a valid module", "[compiler]") {
+TEST_CASE("a shader requests once that its device preserve NaN, and stays a valid module", "[compiler]") {
     const ShaderCompiler compiler({});
     const auto spirv = compiler.compile({.name = "k", .text = head + "void main() {}\n"});
     REQUIRE(spirv);
@@ -300,7 +300,7 @@ TEST_CASE("every ray-tracing stage compiles", "[compiler]") {
         error_of(compiler,
                  {.name = "f", .text = rt + "void main() { ignoreIntersectionEXT; }\n", .stage = ShaderStage::miss}),
         StartsWith("f:3: "));
-    // A text without main() is an error that says so.
+    // A text without main() is reported as an error.
     CHECK_THAT(error_of(compiler, {.name = "g", .text = "#version 460\n"}),
                StartsWith("g: ") && ContainsSubstring("entry point"));
 }

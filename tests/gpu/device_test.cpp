@@ -43,7 +43,7 @@ TEST_CASE("a device is selected by index or by part of its name", "[device]") {
     const auto none = Device::create({.select = "no such card"}, log);
     REQUIRE_FALSE(none.has_value());
     CHECK(none.error().message.find("no such card") != std::string::npos);
-    CHECK(none.error().message.find(usable->name) != std::string::npos); // what there is instead
+    CHECK(none.error().message.find(usable->name) != std::string::npos); // the available ones
     CHECK_FALSE(Device::create({.select = "99"}, log).has_value());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layered model by brute force: walks through the two interfaces and the medium, each event sampled by
-// its own probabilities, no next-event estimation, no MIS, no Russian roulette. Slow, but too simple to err alike.
+// its own probabilities, no next-event estimation, no MIS, no Russian roulette. Slow, but simple enough not to share
+// errors.
 #pragma once
 
 #include "gpu/bsdf_reference.hpp"
@@ -46,7 +47,8 @@ inline V dielectric_event(V v, Alpha a, double eta, Random& r, double& weight) {
     return w;
 }
 
-// Where the light seen along wo (z > 0) comes from; its mean weight over a set of directions is the integral of f cos.
+// Source direction of the light seen along wo (z > 0); its mean weight over a set of directions is the integral of f
+// cos.
 inline std::optional<Exit> layered_walk(const LayeredModel& m, V wo, Random& r) {
     double weight = 1;
     const bool coat_is_smooth = std::min(m.coat.x, m.coat.y) < 1e-3;

@@ -106,7 +106,7 @@ void rough(scene::ParamSet& set, Engine& e) {
 // The papers' formulas are single scattering; multiple scattering is tested in multiscatter_test.cpp.
 void single(scene::ParamSet& set) { set.set("multiscatter", scene::Value::boolean(false)); }
 
-// No index of 0: the complex formula has no value there.
+// No index of 0, for which the complex formula is undefined.
 void dense(scene::ParamSet& set, Engine& e) {
     set.set("eta", scene::Value::color(uniform(e, 0.05f, 10), uniform(e, 0.05f, 10), uniform(e, 0.05f, 10)));
 }
@@ -288,7 +288,7 @@ TEST_CASE("principled: sheen against Estevez and Kulla", "[materials]") {
         });
 }
 
-// Delta lobes: which direction, with what probability and weight. Probability times weight is what a lobe carries.
+// Delta lobes: direction, probability and weight. Probability times weight is the energy of a lobe.
 TEST_CASE("smooth dielectric, thin dielectric, smooth conductor, mirror, uber: the delta lobes", "[materials]") {
     Bench& bench = Bench::get();
     for (const char* type : {"dielectric", "conductor", "mirror", "uber"}) {
@@ -301,7 +301,7 @@ TEST_CASE("smooth dielectric, thin dielectric, smooth conductor, mirror, uber: t
                 for (const char* id : {"uroughness", "vroughness"})
                     if (configs.back().find(id)) configs.back().set(id, scene::Value::number(0));
             if (type == std::string_view("conductor")) dense(configs.back(), e);
-            if (type == std::string_view("uber")) // at 1 refraction and passing through look the same
+            if (type == std::string_view("uber")) // at 1 refraction and passing through are indistinguishable
                 configs.back().set("eta", scene::Value::number(uniform(e, 1.1f, 3.f)));
             if (type != std::string_view("dielectric") && configs.back().find("remap"))
                 configs.back().set("remap", scene::Value::choice("none"));

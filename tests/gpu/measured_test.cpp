@@ -49,7 +49,7 @@ Errors compare(const std::string& file, const std::function<double(V, V)>& f, do
     set.set("filename", scene::Value::table(file));
     Engine e(5);
     std::vector<BsdfJob> jobs;
-    while (jobs.size() < 20000) { // half vectors where the lobe is, and anywhere
+    while (jobs.size() < 20000) { // half vectors in the lobe, and anywhere
         const Vec3 wo = random_direction(e, static_cast<float>(least));
         Vec3 wi = random_direction(e, static_cast<float>(least));
         if (alpha > 0 && jobs.size() % 2) {

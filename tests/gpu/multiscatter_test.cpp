@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Energy compensation: what a rough white surface reflects with and without it, by integrating its samples, and how
-// accurate the loss and its fitted mean (shaders/restage/v1/multiscatter.glsl) are over the whole range of roughness.
+// Energy compensation: the reflectance of a rough white surface with and without it, by integrating its samples, and
+// the accuracy of the loss and its fitted mean (shaders/restage/v1/multiscatter.glsl) over the whole range of
+// roughness.
 #include "gpu/bench.hpp"
 
 #include <catch2/catch_test_macros.hpp>

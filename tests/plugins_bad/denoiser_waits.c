@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A denoiser that never ends by itself, so that a test can stop it for certain. */
+/* A denoiser that runs until it is cancelled, so that a test can reliably cancel it. */
 #include <restage/denoiser.h>
 
 static int available(const char** reason) {

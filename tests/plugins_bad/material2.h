@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a second revision of the material interface could be, for tests: it has little in common with the first. */
+/* A possible second revision of the material interface, for tests, with little in common with the first. */
 #pragma once
 
 #include <restage/plugin.h>

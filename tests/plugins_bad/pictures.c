@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A material whose library needs the host's decoder of pictures, and says in the log what it made of one. */
+/* A material whose library needs the host's image decoder, and logs the result of one call. */
 #include <restage/image.h>
 #include <restage/material.h>
 #include <stdio.h>

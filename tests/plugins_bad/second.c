@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A bundle for programs of two times: "velvet" in both revisions of the interface, "silk" in the second only. */
+/* A bundle for two generations of programs: "velvet" in both revisions of the interface, "silk" only in the second. */
 #include "material2.h"
 
 #include <restage/material.h>

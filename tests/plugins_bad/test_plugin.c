@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* One plugin, and the ways to get it wrong: built once for each TEST_* macro. */
+/* One plugin and its possible faults: built once for each TEST_* macro. */
 #include <restage/material.h>
 #include <restage/scene_io.h>
 #include <restage/table.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An action and a panel, right as they stand; a macro ACTION_* or PANEL_* makes one wrong. The action stacks copies of
- * the selected objects. tests/scripts/test_check_action.py gives them manifests. */
+/* An action and a panel, correct by themselves; a macro ACTION_* or PANEL_* makes one wrong. The action stacks copies
+ * of the selected objects. tests/scripts/test_check_action.py gives them manifests. */
 #include <restage/action.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +39,7 @@ static int run(const RestageSceneReader1* scene, const RestageSelection1* select
             memset(&object, 0, sizeof object);
             object.size = sizeof object;
             if (!scene->instance(scene->ctx, selection->instances[i], &object)) {
-                edits->error(edits->ctx, "what is selected is not there");
+                edits->error(edits->ctx, "the selected object does not exist");
                 return 0;
             }
 #if defined(ACTION_CRASHES)
@@ -70,7 +70,7 @@ static int run(const RestageSceneReader1* scene, const RestageSelection1* select
 }
 
 static const RestageAction1 action = {
-    sizeof(RestageAction1), "stack", "Stack", "Copies of what is selected, one after the other.", params,
+    sizeof(RestageAction1), "stack", "Stack", "Copies of the selected objects, one after the other.", params,
     RESTAGE_COUNT(params),  0,       run};
 
 static void draw(const RestageUi1* ui, void* ctx) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The action and panel of action.c, rebuilt: "copies" has another range, "step" is gone, "gap" is new. OTHER_THROWS:
+// The action and panel of action.c, rebuilt: "copies" has another range, "step" was removed, "gap" added. OTHER_THROWS:
 // both throw exceptions, the action after it has added an object.
 #include <restage/action.h>
 #include <stdexcept>
@@ -34,7 +34,7 @@ int run(const RestageSceneReader1* scene, const RestageSelection1* selection, co
 constexpr RestageAction1 action{.size = sizeof(RestageAction1),
                                 .id = "stack",
                                 .label = "Stack",
-                                .tooltip = "Copies of what is selected, one after the other.",
+                                .tooltip = "Copies of the selected objects, one after the other.",
                                 .params = params,
                                 .param_count = RESTAGE_COUNT(params),
                                 .flags = 0,

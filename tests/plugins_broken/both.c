@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A bundle of an importer and an exporter of one format, nine numbers a triangle, right as it stands; a macro BOTH_*
- * makes what comes back another scene. */
+/* A bundle of an importer and an exporter of one format, nine numbers per triangle, correct by itself; a macro BOTH_*
+ * makes the round trip change the scene. */
 #include <restage/scene_io.h>
 #include <stdio.h>
 #include <string.h>

@@ -12,7 +12,7 @@
 #endif
 
 #define ROUGHNESS RESTAGE_FLOAT_PARAM("roughness", "Roughness", 0, 1, 0.3f, 0, "", "Its square is alpha.")
-#define TINT RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.9f, 0.9f, 0.9f, 0, "", "Multiplies what is reflected.")
+#define TINT RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.9f, 0.9f, 0.9f, 0, "", "Multiplies the reflection.")
 
 #if defined(BROKEN_COUNT_LIES)
 /* What follows two lines is not a table line. */

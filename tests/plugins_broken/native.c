@@ -17,11 +17,11 @@ static int* volatile nowhere;
 #endif
 
 #if defined(NATIVE_IMPORTER_LOSES) || defined(NATIVE_EXPORTER_LOSES) || defined(NATIVE_DENOISER_LOSES)
-char* volatile lost; /* the last of those that are never freed */
+char* volatile lost; /* the last leaked block */
 #endif
 
 #if defined(NATIVE_IMPORTER_WAITS) || defined(NATIVE_DENOISER_WAITS)
-/* Tells a test that it runs: the file that the environment names is there. */
+/* Signals a test that it is running, by creating the file named in the environment. */
 static void mark(void) {
     const char* path = getenv("RESTAGE_TEST_MARK");
     FILE* file = path ? fopen(path, "wb") : NULL;
@@ -29,7 +29,7 @@ static void mark(void) {
 }
 #endif
 
-/* --- an importer of lines "x y size": a triangle each ---------------------------------------------------------- */
+/* --- an importer of lines "x y size": one triangle each ---------------------------------------------------------- */
 
 static int probe(const char* path, const void* head, size_t size) {
     (void)path;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A sky, right as it stands: grey, brighter upwards, with a sun. A macro SKY_* makes it wrong in one way.
+/* A sky, correct by itself: grey, brighter upwards, with a sun. A macro SKY_* makes it wrong in one way.
  * tests/scripts/test_check_sky.py gives it manifests. */
 #include <restage/sky.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A texture, right as it stands: stripes of two values along u. A macro TEXTURE_* makes its native evaluation wrong in
+/* A texture, correct by itself: stripes of two values along u. A macro TEXTURE_* makes its native evaluation wrong in
  * one way; faults of its GLSL are macros in texture.glsl. tests/scripts/test_check_texture.py gives it manifests. */
 #include <math.h>
 #include <restage/texture.h>
@@ -8,16 +8,16 @@
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("one", "One", 0, 1, 0.8f, 0.1f, 0.1f, RESTAGE_PARAM_TEXTURABLE, "", "A stripe."),
     RESTAGE_COLOR_PARAM("other", "Other", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The next."),
-    RESTAGE_FLOAT_PARAM("part", "Part", 0, 1, 0.5f, 0, "", "How much of a unit of u the first has."),
-    RESTAGE_INT_PARAM("turns", "Turns", 1, 9, 1, 0, "", "How many stripes there are in a unit of u."),
-    RESTAGE_BOOL_PARAM("along", "Along u", 0, 0, "Whether they lie along u."),
+    RESTAGE_FLOAT_PARAM("part", "Part", 0, 1, 0.5f, 0, "", "Fraction of a unit of u that the first covers."),
+    RESTAGE_INT_PARAM("turns", "Turns", 1, 9, 1, 0, "", "Number of stripes per unit of u."),
+    RESTAGE_BOOL_PARAM("along", "Along u", 0, 0, "Whether they run along u."),
 };
 
 static void eval(const RestageTextureAt1* at, float rgb[3]) {
     const float x = (at->whole[4] ? at->uv[1] : at->uv[0]) * (float)at->whole[3];
     const float* of = at->values;
     int k;
-#if defined(TEXTURE_INDEX) /* of a line, not of four floats a line */
+#if defined(TEXTURE_INDEX) /* index of the line, instead of four floats per line */
     if (x - floorf(x) >= at->values[2]) of += 4;
 #else
     if (x - floorf(x) >= at->values[8]) of += 4;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stripes, right as they stand; a macro broken_* makes them wrong in one way.
+// Stripes, correct by themselves; a macro broken_* makes them wrong in one way.
 Spectrum broken_texture(broken_Params m, TextureSite at) {
     float x = (m.along ? at.uv.y : at.uv.x) * float(m.turns);
 #if defined(broken_idle)

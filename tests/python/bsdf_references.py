@@ -2,7 +2,7 @@
 """The closed-form materials computed independently, in double precision, from the papers and not from our GLSL.
 
 Every function takes wo, wi (n, 3) and arrays of parameters (n,) or (n, 3) and returns f(wo, wi) |cos wi|, (n, 3).
-Where the GLSL rearranges a formula for single precision, this file has it as printed."""
+Formulas that the GLSL rearranges for single precision are here as printed."""
 import math
 
 import numpy as np
@@ -113,7 +113,7 @@ def dielectric(wo, wi, eta, ax, ay, beckmann, correlated=True):
 
 
 def substrate(wo, wi, kd, ks, ax, ay):
-    """Ashikhmin and Shirley 2000, Eqs. 4 and 5, as pbrt-v3 takes them (GGX for the distribution; Eqs. 8.20, 8.21)."""
+    """Ashikhmin and Shirley 2000, Eqs. 4 and 5, as in pbrt-v3 (GGX for the distribution; Eqs. 8.20, 8.21)."""
     same = wo[:, 2] * wi[:, 2] > 0
     o, i = up(wo), up(wi)
     h = normalize(o + i)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The package restage of the build under test, which lies beside the program."""
+"""The package restage of the build under test, next to the program."""
 import os
 import pathlib
 import sys
@@ -36,7 +36,7 @@ def cornell(scenes):
 
 @pytest.fixture(scope="module")
 def demo_document():
-    """One demo scene for tests that undo what they do."""
+    """A shared demo scene for tests that undo their changes."""
     import restage
 
     with restage.open(ROOT / "scenes/demo/demo.pbrt") as session:

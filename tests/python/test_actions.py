@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions of plugins from a script: one step of the history each, stopped by the callback, refused with a sentence."""
+"""Actions of plugins from a script: one undo step each, cancelled by the callback, refused with a message."""
 import numpy as np
 import pytest
 
@@ -23,7 +23,7 @@ def test_scatter_is_one_step_that_undo_takes_back(cornell):
     assert cornell.history == steps + ["Scatter"]
     assert "40 copies" in str(made.report)
     assert cornell.undo() and cornell.history == steps and len(cornell.objects) == objects
-    assert len(made.objects) == 0  # they are gone
+    assert len(made.objects) == 0  # they no longer exist
 
 
 def test_a_seed_gives_the_same_copies(cornell):
@@ -57,10 +57,10 @@ def test_what_there_is(cornell):
 
 
 @pytest.mark.parametrize("arguments, says", [
-    (dict(id="scater"), 'there is no action "scater"; known are: scatter'),
+    (dict(id="scater"), 'there is no action "scater"; known: scatter'),
     (dict(id="scatter"), "nothing is selected: select objects first"),
-    (dict(id="scatter", selection="one"), "two objects at least"),
-    (dict(id="scatter", selection="both", sed=3), 'there is no parameter "sed"; there are: amount, count'),
+    (dict(id="scatter", selection="one"), "at least two objects"),
+    (dict(id="scatter", selection="both", sed=3), 'there is no parameter "sed"; known: amount, count'),
     (dict(id="scatter", selection="both", count=0), 'parameter "count"'),
     (dict(id="scatter", selection="both", amount="lots"), 'parameter "amount"'),
     (dict(id="scatter", selection="both", slope=0, side="back", up="y"), "faces the other way"),

@@ -45,9 +45,9 @@ def test_directions_and_parameters_broadcast():
 
 @pytest.mark.parametrize("type", sorted(restage.material_types()))
 def test_samples_are_finite_and_weights_are_eval_over_pdf(type):
-    """A smoke test of the binding; the plugins' own proof is `restage check`."""
+    """A smoke test of the binding; `restage check` tests the plugins."""
     if type in ("mix", "interface"):
-        pytest.skip("no BSDF of its own")
+        pytest.skip("no BSDF")
     bsdf = restage.Bsdf(type)
     n = 4000
     wo, u = sphere(n, 4), np.random.default_rng(5).random((n, 3), np.float32)

@@ -39,7 +39,7 @@ def rough(rng):
 
 
 def params_of(**columns):
-    """One dict a row; values common to all rows stay scalars."""
+    """One dict per row; values common to all rows stay scalars."""
     def at(value, i):
         return value if isinstance(value, (str, bool)) else (tuple(map(float, value[i])) if value.ndim == 2 else float(value[i]))
     return [{key: at(value, i) for key, value in columns.items()} for i in range(N)]

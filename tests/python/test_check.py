@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""restage.check: the program's conformance test, called from Python. Its findings are tested in tests/scripts/test_check_command.py."""
+"""restage.check: the conformance test, called from Python. tests/scripts/test_check_command.py tests its findings."""
 import pytest
 
 import restage

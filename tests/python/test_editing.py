@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finding and changing things through the package: each function, and that undo leads back."""
+"""Finding and changing things through the package: each function, and undo of it."""
 import json
 import logging
 import pathlib
@@ -166,7 +166,7 @@ def test_material_types_and_assignment(demo):
     count = len(demo.materials)
     with pytest.raises(restage.Error, match="does not exist in a conductor"):
         demo.add_material("Half", "conductor", uroughness=0.2, nonsense=1)
-    assert len(demo.materials) == count and demo.history[-1] == "Add Brushed brass", "nothing of it stays"
+    assert len(demo.materials) == count and demo.history[-1] == "Add Brushed brass", "nothing of it remains"
     table = demo.find("Table")
     table.set_material(metal)
     assert table.materials == [metal] and set(metal.objects) == set(table.objects)
@@ -174,7 +174,7 @@ def test_material_types_and_assignment(demo):
     assert unique != metal and table.objects[0].material == unique
     table.objects[0].material = metal
     metal.type = "coateddiffuse"
-    assert metal.type == "coateddiffuse" and metal["uroughness"] == 0.2, "what both types have stays"
+    assert metal.type == "coateddiffuse" and metal["uroughness"] == 0.2, "common values are kept"
     with pytest.raises(restage.Error, match="no material type"):
         metal.type = "unobtainium"
     with pytest.raises(restage.Error, match="in use|used|still"):
@@ -260,11 +260,11 @@ def test_skies_of_plugins(demo, scenes, tmp_path):
         other.save(tmp_path / "sky.restage")
         with restage.open(tmp_path / "sky.restage") as again:
             assert again.sky.values == other.sky.values and again.sky.values["elevation"] == 12
-    for values, words in (({"elevatoin": 1}, "there are: mode"), ({"elevation": 91}, "out of its range"),
+    for values, words in (({"elevatoin": 1}, "known: mode"), ({"elevation": 91}, "out of its range"),
                           ({"sun": "yes"}, "True or False")):
         with pytest.raises(restage.Error, match=words):
             demo.make_sky("sunsky", **values)
-    with pytest.raises(restage.Error, match='no sky "dome"; there are: sunsky'):
+    with pytest.raises(restage.Error, match='no sky "dome"; known: sunsky'):
         demo.make_sky("dome")
     demo.set_sky(color=(1, 1, 1))
     assert demo.sky.type == "" and demo.sky.values == {} and not demo.sky.is_image
@@ -343,7 +343,7 @@ def test_plugins_and_a_folder_that_holds_none(tmp_path):
     plugins = restage.plugins()
     assert any("material diffuse" in p.provides for p in plugins) and all(p.loaded for p in plugins)
     assert {p.kind for p in plugins} == {"material", "texture", "importer", "exporter", "denoiser", "sky", "action, panel"}
-    with pytest.raises(restage.Error, match="holds no plugin"):
+    with pytest.raises(restage.Error, match="contains no plugin"):
         restage.load_plugins(tmp_path)
     with pytest.raises(restage.Error, match="no such folder"):
         restage.load_plugins(tmp_path / "nowhere")
@@ -395,7 +395,7 @@ def test_everything_public_is_documented_and_in_the_stub():
 
 
 def test_the_engines_warnings_go_to_logging(caplog, tmp_path, scenes):
-    """A non-finite texel of a texture is replaced, and the log says so."""
+    """A non-finite texel of a texture is replaced and logged."""
     image = np.full((4, 4, 3), np.nan, np.float32)
     with restage.open(scenes / "cornell/cornell.pbrt") as session, caplog.at_level(logging.WARNING, "restage"):
         session.materials[0]["reflectance"] = session.add_texture(image, name="holes")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A wrong argument raises a one-sentence error: which, what it must be, what it is."""
+"""A wrong argument raises a one-sentence error: the argument, its required type, the given value."""
 import inspect
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The data-set example: complete, the same again, resumable, and no objects overlap."""
+"""The data-set example: complete, reproducible, resumable, and without overlapping objects."""
 import json
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Geometry as arrays, new cameras and groups, the crop, and pictures as numpy and notebooks see them."""
+"""Geometry as arrays, new cameras and groups, the crop, and pictures in numpy and notebooks."""
 import numpy as np
 import pytest
 
@@ -68,7 +68,7 @@ def test_new_cameras_and_groups(session):
     assert {o.name for o in pair.objects} == {"a", "b"} and pair.parent is None and a.group == pair
     trio = session.add_group([pair, c], "Trio")
     assert pair.parent == trio and a.group == pair and c.group == trio and len(trio.objects) == 3
-    inner = session.add_group(a, "Inner")  # part of a group: within it
+    inner = session.add_group(a, "Inner")  # part of a group: stays within it
     assert inner.parent == pair and a.group == inner
     with pytest.raises(restage.Error, match="at least one object"):
         session.add_group([])

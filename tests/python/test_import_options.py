@@ -29,11 +29,11 @@ def test_a_file_is_read_with_them(model):
 
 
 @pytest.mark.parametrize("options, says", [
-    ({"height": 2}, 'importer "obj": there is no option "height"; there are: units=as_is|mm'),
+    ({"height": 2}, 'importer "obj": there is no option "height"; known: units=as_is|mm'),
     ({"up": "x"}, 'option "up" cannot be "x"; as_is|y|z are possible'),
-    ({"merge": 1}, 'option "merge" cannot be 1; there are: units=as_is|mm|cm|m|in|ft, up=as_is|y|z, merge=true|false'),
-    ({"merge": "true"}, 'option "merge" cannot be true; there are: units='),
-    ({"units": True}, 'option "units" cannot be true; there are: units='),
+    ({"merge": 1}, 'option "merge" cannot be 1; known: units=as_is|mm|cm|m|in|ft, up=as_is|y|z, merge=true|false'),
+    ({"merge": "true"}, 'option "merge" cannot be true; known: units='),
+    ({"units": True}, 'option "units" cannot be true; known: units='),
     ({"units": None}, 'option "units": a value is text, a number, True or False, not None'),
 ])
 def test_what_it_does_not_have_is_refused(model, options, says):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Against Mitsuba 3 (scalar_rgb, single precision), where the models are the same. Not part of tools/setup: install
-`mitsuba` beside the package to run it. docs/references.md has the measurements.
+`mitsuba` with the package to run it. docs/references.md has the measurements.
 
 diffuse, conductor, dielectric (smooth) are compared directly. Mitsuba's rough models take the uncorrelated Smith term
 G1 G1 (ours: height-correlated), so they are compared with bsdf_references.py in that form, and test_bsdf_references.py

@@ -51,7 +51,7 @@ def test_masks_are_what_ids_say(cornell):
         assert np.array_equal(p.mask(material), p.material_id == material.id)
     both = cornell.select(cornell.objects[0], cornell.objects[1])
     assert np.array_equal(p.mask(both), p.mask(cornell.objects[0]) | p.mask(cornell.objects[1]))
-    # A hidden object has no pixel, and what was behind it has more.
+    # A hidden object has no pixels, and objects behind it have more.
     visible = max(cornell.objects, key=lambda o: p.mask(o).sum())
     visible.hidden = True
     assert not cornell.render(size=(64, 64), samples=2).mask(visible).any()
@@ -138,7 +138,7 @@ def test_progress_is_reported_and_false_stops(cornell):
         cornell.render(size=(64, 64), seconds=30, progress=fails)
     with pytest.raises(restage.Error, match="its progress callback cannot"):
         cornell.render(size=(64, 64), seconds=30, progress=lambda at: cornell.render(size=(8, 8), samples=1))
-    assert cornell.render(size=(16, 16), samples=1).finished, "and it goes on to work"
+    assert cornell.render(size=(16, 16), samples=1).finished, "and it still works"
 
 
 @pytest.fixture
@@ -163,7 +163,7 @@ def test_ctrl_c_is_a_keyboard_interrupt_at_once(cornell):
         cornell.render(size=(128, 128), seconds=60)
     took = time.perf_counter() - asked[0]
     timer.join()
-    assert took < 1.0, f"{took:.2f} s until Ctrl-C was heard"
+    assert took < 1.0, f"{took:.2f} s until Ctrl-C took effect"
     assert cornell.render(size=(16, 16), samples=1).finished
 
 
@@ -227,7 +227,7 @@ def test_denoising_and_saving(cornell, tmp_path):
     noisy = cornell.render(size=(64, 64), samples=4, denoise="fast")
     clean = cornell.render(size=(64, 64), samples=256)
     assert noisy.denoised.shape == (64, 64, 3)
-    def error(a):  # the lamp left out: it outshines the rest, and is noise-free except for its edges
+    def error(a):  # without the lamp: it outshines the rest, and is noise-free except at its edges
         return np.sqrt(np.mean((np.clip(a, 0, 1) - np.clip(clean.color, 0, 1)) ** 2))
     assert error(noisy.denoised) < 0.5 * error(noisy.color)
     assert clean.denoise("high") is clean and clean.denoised is not None
@@ -239,7 +239,7 @@ def test_denoising_and_saving(cornell, tmp_path):
         noisy.save(tmp_path / "a.jpeg2000")
     with pytest.raises(restage.Error, match="no folder"):
         noisy.save(tmp_path / "no/a.png")
-    with pytest.raises(restage.Error, match="fast, balanced and high"):
+    with pytest.raises(restage.Error, match="fast, balanced, high"):
         noisy.denoise("best")
 
 

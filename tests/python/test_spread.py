@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders spread over Ray's workers: the same picture as one process, also when a worker is lost. Not part of
-tools/setup: install `ray` beside the package to run them."""
+tools/setup: install `ray` with the package to run them."""
 import importlib.util
 import os
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Callbacks that return False: restage.Cancelled where there is no result without the rest, and nothing is left behind."""
+"""Callbacks that return False: restage.Cancelled if there is no partial result, and no files remain."""
 import json
 import os
 import shutil
@@ -11,7 +11,7 @@ import restage
 
 @pytest.fixture(scope="module")
 def waits(tmp_path_factory, request):
-    """The type of a denoiser that only ends when it is stopped."""
+    """The type of a denoiser that runs until it is cancelled."""
     from conftest import BIN
 
     folder = tmp_path_factory.mktemp("plugins") / "waits"
@@ -26,7 +26,7 @@ def waits(tmp_path_factory, request):
 
 @pytest.fixture
 def stop():
-    """A callback that stops at once, and remembers what it was told."""
+    """A callback that stops immediately, and records its arguments."""
     def callback(*told):
         callback.told.append(told)
         return False
@@ -39,7 +39,7 @@ def stopped(stop, call, *arguments, **more):
     with pytest.raises(restage.Cancelled) as cancelled:
         call(*arguments, progress=stop, **more)
     assert isinstance(cancelled.value, restage.Error) and str(cancelled.value)
-    assert len(stop.told) == 1, "it is not asked again"
+    assert len(stop.told) == 1, "it is not called again"
 
 
 def fails(*told):
@@ -84,10 +84,10 @@ def test_denoising(cornell, stop, waits):
     asked = []
     with pytest.raises(restage.Cancelled):
         picture.denoise(denoiser=waits, progress=lambda fraction: asked.append(fraction) or len(asked) < 3)
-    assert asked == [0.5] * 3, "None and True go on"
+    assert asked == [0.5] * 3, "None and True continue"
     with pytest.raises(ZeroDivisionError, match="mine"):
         picture.denoise(denoiser=waits, progress=fails)
-    assert picture.denoise(progress=lambda fraction: True).denoised is not None, "and it goes on to work"
+    assert picture.denoise(progress=lambda fraction: True).denoised is not None, "and it still works"
     before = picture.denoised.copy()
     with pytest.raises(restage.Cancelled):
         picture.denoise(denoiser=waits, progress=lambda fraction: False)
@@ -95,7 +95,7 @@ def test_denoising(cornell, stop, waits):
 
 
 def test_rendering_returns_what_there_is(cornell, waits):
-    """A picture of fewer samples is a picture: no exception, and it says so."""
+    """A picture of fewer samples is valid: no exception, and `finished` is False."""
     picture = cornell.render(size=(16, 16), samples=1 << 20, progress=lambda p: p.samples < 2)
     assert not picture.finished and 2 <= picture.samples < 1 << 20
     picture = cornell.render(size=(16, 16), samples=2, denoise=True, denoiser=waits, progress=lambda p: p.samples < 2)

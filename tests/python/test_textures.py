@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Textures of every type that a plugin brings: made, given values and operands, assigned, switched, shown."""
+"""Textures of every type of all plugins: created, with values and operands, assigned, switched, shown."""
 import numpy as np
 import pytest
 

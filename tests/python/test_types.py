@@ -16,7 +16,7 @@ mypy = pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy
 
 
 def check(file, cache):
-    # Strict except for what a stub leaves open (`**values`, plain `os.PathLike`); of the package only the stub is checked.
+    # Strict except for untyped parts of a stub (`**values`, plain `os.PathLike`); of the package only the stub is checked.
     options = ["--strict", "--allow-any-generics", "--allow-incomplete-defs", "--allow-untyped-defs", "--follow-imports", "silent"]
     return subprocess.run([sys.executable, "-m", "mypy", *options, "--cache-dir", str(cache), str(file)], capture_output=True, text=True,
                           cwd=cache, env={**os.environ, "MYPYPATH": str(PACKAGES)})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values that cannot be rendered: refused with a message by every setter, and the session continues."""
+"""Values that cannot be rendered are refused with a message by every setter, and the session continues."""
 import math
 import os
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The package as its documentation shows it. Type checkers must be content with this file (test_types.py); it is run as well."""
+"""The package as shown in its documentation. Type checkers must accept this file (test_types.py); it is run as well."""
 import pathlib
 
 import numpy as np

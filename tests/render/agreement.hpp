@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Do two pictures of one scene agree up to noise? Shared by the tests of agreement between tracers.
+// Whether two pictures of a scene agree up to noise. Shared by the tests of agreement between tracers.
 #pragma once
 
 #include "io/image_compare.hpp"
@@ -39,16 +39,16 @@ inline void check_independent(const render::FilmImage& a, const render::FilmImag
     REQUIRE(test);
     const Mean ma = mean_luminance(a), mb = mean_luminance(b);
     const double z = (ma.value - mb.value) / std::max(std::hypot(ma.std_error, mb.std_error), 1e-12);
-    INFO(
-        fmt::format("share of pixels within 3: {:.4f}, worst {:.2f}, rms {:.3f}; means {:.5f} +- {:.5f} and {:.5f} +- "
-                    "{:.5f}, z {:.2f}",
-                    test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
+    INFO(fmt::format(
+        "fraction of pixels within 3: {:.4f}, worst {:.2f}, rms {:.3f}; means {:.5f} +- {:.5f} and {:.5f} +- "
+        "{:.5f}, z {:.2f}",
+        test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
     CHECK(test->share_passing >= 0.995);
     CHECK(std::abs(z) <= 3);
     CHECK(ma.value > 0); // a black picture agrees with anything
 }
 
-// Pictures from the same random numbers: paths are the same up to rounding. The share of pixels whose luminance is
+// Pictures from the same random numbers: paths are the same up to rounding. The fraction of pixels whose luminance is
 // within 0.1 % of each other.
 inline double share_alike(const render::FilmImage& a, const render::FilmImage& b) {
     const auto la = estimate(a).luminance, lb = estimate(b).luminance;

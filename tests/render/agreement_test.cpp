@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two tracers give one picture. With different seeds, within their noise; with the same seed, nearly the same
-// numbers, since both walk the same path step and only rounding in the search for hits differs.
+// The two tracers give the same picture. With different seeds, within their noise; with the same seed, nearly the same
+// values, since both use the same path step and only rounding in the search for hits differs.
 #include "render/agreement.hpp"
 #include "render/scene_builder.hpp"
 
@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint32_t spp = 64;
 
 struct Expected {
-    double alike = 0.97;   // share of pixels within 0.1 % with the same seed; 0 = hashes of the last bit decide
-    double ids = 0.99;     // share of pixels with the same instance and material
+    double alike = 0.97;   // fraction of pixels within 0.1 % with the same seed; 0 = hashes of the last bit decide
+    double ids = 0.99;     // fraction of pixels with the same instance and material
     double guides = 0.005; // mean difference
 };
 
@@ -26,7 +26,7 @@ void check_agreement(const scene::Scene& scene, const Expected& expected = {}) {
     const auto other = trace_scene("embree", scene, spp, 2);
     check_independent(vulkan.image, other.image);
     const double alike = share_alike(vulkan.image, same.image);
-    INFO("share of pixels alike with the same seed: " << alike);
+    INFO("fraction of equal pixels with the same seed: " << alike);
     CHECK(alike >= expected.alike);
     if (expected.alike > 0)
         CHECK(share_alike(vulkan.image, other.image) < 0.8 * expected.alike); // else the line above proves nothing
@@ -79,7 +79,7 @@ glm::dmat4 at(double x, double y, double z, double scale = 1) {
 scene::Id<scene::Instance> floor_of(SceneBuilder& b, scene::Id<scene::Material> material) {
     return b.instance(b.quad({-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}), material);
 }
-void area_light(SceneBuilder& b, glm::vec3 radiance) { // over the scene, shining down
+void area_light(SceneBuilder& b, glm::vec3 radiance) { // above the scene, emitting down
     b.instance(b.quad({-2, -2, 6}, {-2, 2, 6}, {2, 2, 6}, {2, -2, 6}), b.diffuse(0, 0, 0), glm::dmat4(1),
                scene::Emission{radiance});
 }
@@ -106,8 +106,8 @@ void environment_image(SceneBuilder& b, scene::Mapping mapping) {
         ++b.scene.clock};
 }
 
-// The types of all material plugins except those that need something else (mixes, interfaces), which have scenes
-// of their own below.
+// The types of all material plugins except those that need something else (mixes, interfaces), which have
+// their own scenes below.
 std::vector<const model::Material*> material_types() {
     std::vector<const model::Material*> types;
     for (const auto& entry : plugins().registry.materials())
@@ -152,7 +152,7 @@ void gallery(SceneBuilder& b, const std::vector<const model::Material*>& types) 
 
 } // namespace
 
-// Every type is in one of the parts, which are cases of their own: with cold caches, compiling them all takes ten
+// Every type is in one of the parts, which are separate cases: with cold caches, compiling them all takes ten
 // minutes.
 constexpr std::size_t gallery_parts = 8;
 
@@ -202,7 +202,7 @@ TEST_CASE("tracers agree: mixes and cut-outs") {
     edit_instance(b, b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, -0.3, 0)),
                   [&](auto& i) { i.alpha = 0.4f; });
     edit_instance(b, b.instance(ball, gold, at(1.2, 2, 0.9, 0.9)), [&](auto& i) { i.alpha = 0; }); // does not exist
-    b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, 1.5, 0)); // the same mesh, whole
+    b.instance(panel, b.diffuse(0.8f, 0.7f, 0.3f), at(3.4, 1.5, 0)); // the same mesh, without cut-outs
     area_light(b, glm::vec3(6));
     b.environment(glm::vec3(0.4f, 0.5f, 0.7f));
     check_agreement(b.scene, {.alike = 0, .ids = 0.7, .guides = 0.05});

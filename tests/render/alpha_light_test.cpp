@@ -10,7 +10,7 @@ using namespace restage::tests;
 
 namespace {
 
-// A floor of albedo 1/2, a lamp of 1 x 1 and radiance 10 at height 10, the camera in between: it sees the floor only.
+// A floor of albedo 1/2, a lamp of 1 x 1 and radiance 10 at height 10, the camera in between: it sees only the floor.
 struct Floor : SceneBuilder {
     scene::Id<scene::Instance> lamp;
     explicit Floor(float fov = 4) {
@@ -51,7 +51,7 @@ void check_radiance(const render::FilmImage& image, double expected, double wide
 
 } // namespace
 
-TEST_CASE("a lamp of alpha below 1 is sampled like any other, and emits that share") {
+TEST_CASE("a lamp of alpha below 1 is sampled like any other, and emits that fraction") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     for (const float alpha : {1.f, 0.5f, 0.1f}) {
@@ -101,7 +101,7 @@ TEST_CASE("alpha as a mask is opaque wherever it is above 0") {
     check_radiance(render_image(*renderer, b.scene, 64), 5, 0.1);
 }
 
-TEST_CASE("every strategy finds the same light from a lamp with alpha") {
+TEST_CASE("every strategy gives the same light from a lamp with alpha") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Floor near_lamp(90);
     near_lamp.change([](scene::Instance& i) {
@@ -133,7 +133,7 @@ TEST_CASE("a lamp with a null surface emits, is visible, and hides nothing") {
     const auto none = b.material("interface");
     b.change([&](scene::Instance& i) { i.material = none; });
     check_radiance(render_image(*renderer, b.scene, 64), below_square(), 0.003);
-    // Looked at against a sky of 1, its light comes on top; from behind, only the sky is seen.
+    // In front of a sky of 1 its light is added; from behind, only the sky is visible.
     b.environment(glm::vec3(1));
     b.scene.settings.value.max_depth = 0;
     b.set_camera({0, 0, 9.9}, {0, 0, 10}, {0, 1, 0}, 45);

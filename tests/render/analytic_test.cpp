@@ -16,7 +16,7 @@ void check_mean(const render::FilmImage& image, double expected) {
     INFO("mean " << m.value << " +- " << m.std_error << ", expected " << expected << ", z "
                  << (m.value - expected) / std::max(m.std_error, 1e-12));
     CHECK(std::abs(m.value - expected) <= 3 * m.std_error + 2e-4 * std::abs(expected));
-    CHECK(m.std_error < 0.02 * std::abs(expected) + 1e-9); // else the first check proves nothing
+    CHECK(m.std_error < 0.02 * std::abs(expected) + 1e-9); // else the first check is meaningless
 }
 
 // A camera high above the origin that sees a tiny patch of the plane z = 0.
@@ -131,14 +131,14 @@ TEST_CASE("triangle light over a plane: Lambert's formula") {
     b.scene.settings.value.max_depth = 1;
     auto renderer = make_renderer(tracer);
     check_mean(render_image(*renderer, b.scene, 256), irradiance / pi);
-    // turned over, only the two-sided one lights the plane
+    // flipped, only the two-sided one lights the plane
     auto turned = b.scene.instances[id];
     turned.reverse_orientation = true;
     b.scene.instances.set(id, turned, ++b.scene.clock);
     check_mean(render_image(*renderer, b.scene, 256), two_sided ? irradiance / pi : 0);
 }
 
-TEST_CASE("a mirrored transform keeps the side that emits") {
+TEST_CASE("a mirrored transform keeps the emitting side") {
     const auto tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;
     look_down(b);
@@ -155,7 +155,7 @@ TEST_CASE("a mirrored transform keeps the side that emits") {
     check_mean(render_image(*make_renderer(tracer), b.scene, 256), 2 * form);
 }
 
-TEST_CASE("a cut-out lamp emits from the rest of it, and a null surface wholly") {
+TEST_CASE("a cut-out lamp emits from its remaining part, and a null surface completely") {
     const auto tracer = GENERATE("embree", "vulkan");
     const std::string left = GENERATE("half of it by alpha", "half of it in a mix", "interface");
     CAPTURE(left);

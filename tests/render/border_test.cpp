@@ -53,7 +53,7 @@ TEST_CASE("borders: camera rays through ink, nested and from within") {
     const glm::dvec3 ink(ink_sigma), tea(tea_sigma);
     int number = 0;
     const auto check = [&](const scene::Scene& scene, const glm::dvec3& depth) {
-        if (tracer == "vulkan" && number++ % 2 == 0) return; // its pipelines take seconds a scene on a CPU
+        if (tracer == "vulkan" && number++ % 2 == 0) return; // its pipelines take seconds per scene on a CPU
         renderer->forget_scene();
         check_color(render_image(*renderer, scene, 4), glm::exp(-depth));
         CHECK(renderer->gpu_scene().features().borders);
@@ -81,7 +81,7 @@ TEST_CASE("borders: camera rays through ink, nested and from within") {
               edit_instance(b, id, [](auto& i) { i.reverse_orientation = true; });
           }),
           0.8 * ink);
-    check(scene_of([](SceneBuilder& b) { // the camera in the midst of it
+    check(scene_of([](SceneBuilder& b) { // the camera inside it
               const auto around = medium(b, ink_sigma);
               slab(b, b.material("interface"), 15, {.interior = around}, {0, 0, 24}, 50);
               b.scene.settings.value.camera_medium = around;
@@ -94,7 +94,7 @@ TEST_CASE("borders: shadow rays are absorbed, not stopped") {
     const auto renderer = make_renderer(tracer);
     INFO(tracer);
     for (const bool lamp_inside : {false, true}) {
-        if (tracer == "vulkan" && !lamp_inside) continue; // its pipelines take seconds a scene on a CPU
+        if (tracer == "vulkan" && !lamp_inside) continue; // its pipelines take seconds per scene on a CPU
         SceneBuilder b;
         look_down(b, {6, 0, 0.2}); // under the slabs
         ground(b, 0.5f);
@@ -144,7 +144,7 @@ TEST_CASE("borders: light sampling, BSDF sampling and both agree on a light behi
     check_same_mean(images[0], images[2]);
 }
 
-TEST_CASE("borders: those of clear media change no sample, and surfaces that border nothing cost nothing") {
+TEST_CASE("borders: those of clear media change no sample, and surfaces without media are free") {
     const std::string tracer = "embree";
     const auto renderer = make_renderer(tracer);
     std::vector<render::FilmImage> images;
@@ -179,7 +179,7 @@ TEST_CASE("borders: those of clear media change no sample, and surfaces that bor
     }
 }
 
-TEST_CASE("borders: a mix with a share of null surface lets that share pass") {
+TEST_CASE("borders: a mix with a null component lets that fraction pass") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto mix = [](SceneBuilder& b, scene::Id<scene::Material> first, scene::Id<scene::Material> second,
@@ -203,10 +203,10 @@ TEST_CASE("borders: a mix with a share of null surface lets that share pass") {
             edit_instance(b, id, [&](auto& i) { i.media = scene::MediumInterface{.interior = medium(b, ink_sigma)}; });
         renderer->forget_scene();
         const auto image = render_image(*renderer, b.scene, 256);
-        // both sides of the slab are one chance each
+        // both sides of the slab are decided independently
         check_color(image, 0.64 * glm::exp(-(filled ? 0.8 : 0.0) * glm::dvec3(ink_sigma)), 0.006);
         CHECK(mean_luminance(image).std_error < 0.003);
-        // an edit takes the gaps away
+        // an edit removes the gaps
         b.scene.materials.set(outer, b.scene.materials[b.diffuse(0, 0, 0)], ++b.scene.clock);
         check_color(render_image(*renderer, b.scene, 4), glm::dvec3(0));
     }

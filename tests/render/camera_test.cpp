@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a pixel looks: field of view, screen window, crop, lens, and the pixel filters. Both tracers begin a path by
+// The rays of a pixel: field of view, screen window, crop, lens, and the pixel filters. Both tracers begin a path by
 // the same code (shaders/path/begin.glsl), so one of them is enough here.
 #include "query/navigation.hpp"
 #include "render/checks.hpp"
@@ -33,7 +33,7 @@ double overlap(double a0, double a1, double b0, double b1) {
     return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
 }
 
-// Each pixel of a picture of the card shows the share of it that the card covers. window: x0 x1 z0 z1 at distance 1.
+// Each pixel of a picture of the card shows the fraction of it that the card covers. window: x0 x1 z0 z1 at distance 1.
 void check_coverage(const render::FilmImage& image, glm::dvec4 window, glm::dvec4 card) {
     std::size_t off = 0;
     double sum = 0, expected = 0;
@@ -119,7 +119,7 @@ TEST_CASE("camera: a lens blurs by the circle of confusion") {
     }
 }
 
-TEST_CASE("camera: a crop window shows what the whole picture shows there") {
+TEST_CASE("camera: a crop window shows the same as the whole picture there") {
     for (const char* tracer : {"embree", "vulkan"}) {
         const auto renderer = make_renderer(tracer);
         const auto render = [&](glm::vec4 crop) {
@@ -144,7 +144,7 @@ TEST_CASE("camera: a crop window shows what the whole picture shows there") {
     }
 }
 
-TEST_CASE("pixel filters: a constant stays itself, and a dot takes the filter's shape") {
+TEST_CASE("pixel filters: a constant is unchanged, and a dot takes the filter's shape") {
     const auto renderer = make_renderer("embree");
     using scene::FilterKind;
     for (const scene::Filter& filter : {scene::Filter{FilterKind::box, glm::vec2(0.5f), {}},
@@ -207,7 +207,7 @@ TEST_CASE("pixel filters: a constant stays itself, and a dot takes the filter's 
     }
 }
 
-TEST_CASE("camera: an orthographic one shows the world at its scale, from any place") {
+TEST_CASE("camera: an orthographic one shows the world at its scale, from any distance") {
     const auto renderer = make_renderer("embree");
     const glm::dvec4 patch(-0.101, 0.253, -0.057, 0.212);
     struct Case {
@@ -233,7 +233,7 @@ TEST_CASE("camera: an orthographic one shows the world at its scale, from any pl
         }
 }
 
-TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and spreads as pbrt's beyond") {
+TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and blurs like pbrt's elsewhere") {
     // pbrt 4ed, 5.2.3, as its OrthographicCamera has it: rays leave the lens around the axis for the point in focus.
     const auto renderer = make_renderer("embree");
     const auto look_at = [&](double distance, glm::dvec4 patch, glm::dvec4 seen) {
@@ -255,7 +255,7 @@ TEST_CASE("camera: an orthographic one with a lens is sharp at its focus and spr
     look_at(8, 2.0 * patch, patch); // twice as far from the lens, twice as wide
 }
 
-TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
+TEST_CASE("camera: spherical ones map directions like pbrt's") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const scene::Projection projection =
         GENERATE(scene::Projection::spherical, scene::Projection::spherical_equal_area);
@@ -267,7 +267,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
         camera.projection = projection;
     });
     b.scene.settings.value.max_depth = 0;
-    // A box around the camera; each of its sides has a radiance of its own, 1 + its number: +x +y +z -x -y -z.
+    // A box around the camera; each of its sides has its own radiance, 1 + its number: +x +y +z -x -y -z.
     for (int side = 0; side < 6; ++side) {
         const auto corner = [&](float u, float v) {
             glm::vec3 p;
@@ -288,7 +288,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
         return axis + (d[axis] < 0 ? 3 : 0);
     };
     std::size_t whole = 0, off = 0;
-    double up = 0, weights = 0; // the share of the sphere that the upper side covers
+    double up = 0, weights = 0; // the fraction of the sphere that the upper side covers
     for (std::uint32_t y = 0; y < 24; ++y)
         for (std::uint32_t x = 0; x < 32; ++x) {
             const float got = image.color[y * 32 + x].y;
@@ -320,7 +320,7 @@ TEST_CASE("camera: spherical ones see each direction where pbrt's do") {
     }
 }
 
-TEST_CASE("camera: points projected to the film are seen there") {
+TEST_CASE("camera: points projected to the film are visible there") {
     for (const auto projection : {scene::Projection::perspective, scene::Projection::orthographic,
                                   scene::Projection::spherical, scene::Projection::spherical_equal_area}) {
         SceneBuilder b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes and statistics that several tests of rendering share.
+// Scenes and statistics shared by several tests of rendering.
 #pragma once
 
 #include "render/fixture.hpp"
@@ -9,7 +9,7 @@
 
 namespace restage::tests {
 
-// Within 3 standard errors, and `relative` for the rounding of floats; and known to 2 %, else the first proves nothing.
+// Within 3 standard errors, and `relative` for the rounding of floats; and known to 2 %, else the first is meaningless.
 inline void check_mean(const render::FilmImage& image, double expected, double relative = 2e-4) {
     const Mean m = mean_luminance(image);
     INFO("mean " << m.value << " +- " << m.std_error << ", expected " << expected << ", z "

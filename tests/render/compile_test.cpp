@@ -73,7 +73,7 @@ glm::vec3 centre(const render::FilmImage& image) { return image.color[image.widt
 
 } // namespace
 
-TEST_CASE("while a material compiles its colour stands in for it, and then the film restarts") {
+TEST_CASE("while a material compiles its colour replaces it, and then the film restarts") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = editor(tracer, "stand_in_" + tracer);
     Ball b(red);
@@ -123,8 +123,8 @@ TEST_CASE("samples of a stand-in do not stay in the film") {
     check_equal(renderer->image(), render_image(*make_renderer(tracer), b.scene, 4));
 }
 
-// The code arrives within a sample, after the sample has begun with the stand-in.
-TEST_CASE("a film that holds a stand-in's samples waits for the real material") {
+// The code is ready during a sample that has begun with the stand-in.
+TEST_CASE("a film that contains a stand-in's samples waits for the real material") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto cache = empty_cache("late_" + tracer);
     Ball b(red);
@@ -154,7 +154,7 @@ TEST_CASE("a film that holds a stand-in's samples waits for the real material") 
     check_equal(image, render_image(*make_renderer(tracer), b.scene, image.samples));
 }
 
-TEST_CASE("a material that only one path in many samples meets is compiled too") {
+TEST_CASE("a material hit by only one path in many samples is compiled, too") {
     const auto renderer = editor("embree", "rare");
     Ball b([](SceneBuilder& s) { return s.material("coateddiffuse"); });
     auto i = b.scene.instances[b.ball];
@@ -218,7 +218,7 @@ TEST_CASE("a command waits for its shaders, and stops waiting on request") {
     CHECK(renderer->image().samples == 4);
 }
 
-TEST_CASE("a type that no path meets is not compiled by the wavefront") {
+TEST_CASE("a type that no path hits is not compiled by the wavefront") {
     Ball b(red);
     const auto renderer = make_renderer("embree");
     render_image(*renderer, b.scene, 1);

@@ -10,7 +10,7 @@ using namespace restage::tests;
 
 namespace {
 
-// A lamp above a floor, both seen, in the dark.
+// A lamp above a floor, both visible, in the dark.
 struct Lamp : SceneBuilder {
     scene::Id<scene::Instance> lamp;
     Lamp() {
@@ -122,7 +122,7 @@ TEST_CASE("a screen shows its picture") {
     CHECK(glm::length(at(2) - glm::vec3(0, 0, 2)) < 1e-4);
 }
 
-TEST_CASE("what a material emits can be edited, replaced by the object's own, and is left out of mixes") {
+TEST_CASE("a material's emission can be edited or overridden by the object, and is ignored in mixes") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Lamp b;
     const auto bright = b.emissive(scene::Value::color(1, 1, 1), 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies: interpolated between texels; a sun of one pixel is found, turns by pbrt's convention, and is equally bright in
+// Skies: interpolated between texels; a one-pixel sun is found, rotates by pbrt's convention, and is equally bright in
 // both mappings.
 #include "render/checks.hpp"
 
@@ -40,7 +40,7 @@ struct Mapping {
             }
         return sum;
     }
-    // Where the square's plane leads, up to a texel outside: pbrt 4ed, fig. 3.22 for the octahedral map.
+    // Continuation of the square's plane, up to a texel outside: pbrt 4ed, fig. 3.22 for the octahedral map.
     glm::dvec2 wrap(double u, double v) const {
         if (kind == scene::Mapping::equirect) return {u - std::floor(u), v < 0 ? -v : v > 1 ? 2 - v : v};
         if (u < 0 || u > 1) u = u < 0 ? -u : 2 - u, v = 1 - v;
@@ -78,7 +78,7 @@ struct Mapping {
 
 const Mapping equirect{scene::Mapping::equirect, 512, 256}, octahedral{scene::Mapping::octahedral, 256, 256};
 
-// The texel that holds a direction.
+// The texel that contains a direction.
 glm::uvec2 texel_of(const Mapping& m, glm::dvec3 w) {
     glm::uvec2 best(0);
     double most = -2;
@@ -133,7 +133,7 @@ TEST_CASE("a sun of one pixel in a dim sky is found, in any direction") {
                 const double geometry =
                     m.integrate_tent(at.x, at.y, [&](const glm::dvec3& w) { return std::max(0.0, (rotation * w).z); });
                 REQUIRE(geometry > 0);
-                const double dim = 0.01, bright = 1 / geometry; // of the sun comes an irradiance of 1, of the sky 0.03
+                const double dim = 0.01, bright = 1 / geometry; // the sun gives an irradiance of 1, the sky 0.03
                 std::vector<float> sky(std::size_t(m.width) * m.height, float(dim));
                 sky[std::size_t(at.y) * m.width + at.x] = float(bright);
                 SceneBuilder b;
@@ -154,7 +154,7 @@ TEST_CASE("a sun of one pixel in a dim sky is found, in any direction") {
     }
 }
 
-TEST_CASE("the sky is interpolated between texels, over seams and folds too") {
+TEST_CASE("the sky is interpolated between texels, also over seams and folds") {
     const std::string tracer = "embree"; // the other runs the same shader
     const auto renderer = make_renderer(tracer);
     for (const Mapping& m : {Mapping{scene::Mapping::equirect, 8, 4}, Mapping{scene::Mapping::octahedral, 6, 6}}) {
@@ -184,7 +184,7 @@ TEST_CASE("the sky is interpolated between texels, over seams and folds too") {
     }
 }
 
-TEST_CASE("one sky in both mappings gives one irradiance") {
+TEST_CASE("the same sky in both mappings gives the same irradiance") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto radiance = [](const glm::dvec3& w) {

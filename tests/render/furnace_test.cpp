@@ -20,7 +20,7 @@ struct Furnace {
         b.environment(glm::vec3(1));
         b.scene.settings.value.max_depth = 100;
     }
-    // A faceted sphere and a cube that touch, so that light goes from one to the other.
+    // A faceted sphere and a cube that touch, so that light passes between them.
     void add(const std::string& name, scene::Id<scene::Material> material) {
         static constexpr int columns = 5;
         if (!ball_) {
@@ -106,7 +106,7 @@ TEST_CASE("furnace: nearly smooth glass and metal lose almost nothing") {
     const Mean m = mean_luminance(image);
     INFO("mean " << m.value << " +- " << m.std_error);
     CHECK(m.value <= 1 + 3 * m.std_error);
-    CHECK(m.value >= 0.998 - 3 * m.std_error); // masking at grazing angles takes a little
+    CHECK(m.value >= 0.998 - 3 * m.std_error); // masking at grazing angles absorbs a little
     CHECK(m.std_error < 0.002);
 }
 

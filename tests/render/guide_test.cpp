@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The denoiser's guides: albedo and normal of what mirrors and smooth glass show, ids and depth of the first
-// hit.
+// The denoiser's guides: albedo and normal of surfaces seen in mirrors and through smooth glass, ids and depth of the
+// first hit.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a few lines of GLSL over an array on the test device, so that tests can hold the shader library to C++.
+// Runs a few lines of GLSL over an array on the test device, so that tests can compare the shader library with C++.
 #pragma once
 
 #include "base/log.hpp"
@@ -29,7 +29,7 @@ class KernelLab {
     gpu::Device& device() { return *device_; }
 
     // `head`: includes. `in`, `out`: GLSL types with the scalar layout of In and Out. `body`: makes `result` of `x`,
-    // the input number `i`; `root` is an address of the caller's choice; `source`: what plugins' code in `head` needs.
+    // the input number `i`; `root` is an address of the caller's choice; `source`: required by plugins' code in `head`.
     template <class Out, class In>
     std::vector<Out> run(const std::string& head, const std::string& in, const std::string& out,
                          const std::string& body, std::span<const In> inputs, std::uint64_t root = 0,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user of the editor sees while working: every picture that LiveView offers is recorded and checked against
-// what it must be. With denoising on none is noisy, dark, of another document, older than one shown before, or a
-// mixture of two scenes.
+// The pictures seen by a user of the editor: every picture that LiveView offers is recorded and checked. With denoising
+// on none is noisy, dark, of another document, older than one shown before, or a mixture of two scenes.
 #include "io/image_file.hpp"
 #include "paths.hpp"
 #include "render/fixture.hpp"
@@ -36,7 +35,7 @@ double mean(const Frame& frame) {
     return sum / double(frame.image.color.size());
 }
 
-// How far pixels of one flat surface are from the middle of their neighbours, in units of the mean: 0 for a gradient.
+// Deviation of pixels of a flat surface from the mean of their neighbours, in units of the mean: 0 for a gradient.
 double noise(const Frame& frame) {
     const render::FilmImage& image = frame.image;
     double sum = 0, n = 0;
@@ -63,7 +62,7 @@ void keep(const Frame& frame, const std::string& name) {
     CHECK(io::write_png((std::filesystem::path(folder) / (name + ".png")).string(), pixels, -1));
 }
 
-// The horizontal place of the pixels that `in` picks, 0..1; -1 = none.
+// The horizontal position of the pixels selected by `in`, 0..1; -1 = none.
 double place(const Frame& frame, const std::function<bool(std::size_t)>& in) {
     double sum = 0, n = 0;
     for (std::size_t i = 0; i < frame.image.color.size(); ++i)
@@ -74,7 +73,7 @@ double place(const Frame& frame, const std::function<bool(std::size_t)>& in) {
     return n > 0 ? sum / n : -1;
 }
 
-// A grey room whose lamp shines at the ceiling: nearly all light is indirect, one sample a pixel is mostly noise.
+// A grey room whose lamp lights the ceiling: nearly all light is indirect, one sample per pixel is mostly noise.
 struct Room : SceneBuilder {
     scene::Id<scene::Instance> ball;
     scene::Id<scene::Material> red;
@@ -122,7 +121,7 @@ class Recorder {
         if (now && (frames_.empty() || frames_.back() != now)) frames_.push_back(now);
         compiled_.insert(live.status().compiling);
     }
-    // What was being compiled, at each notification.
+    // The type being compiled, at each notification.
     bool said(const std::string& type) {
         const std::lock_guard lock(mutex_);
         return compiled_.contains(type);
@@ -158,7 +157,7 @@ class Recorder {
     std::set<std::string> compiled_;
 
   public:
-    LiveView live; // last: its threads call look() until it is gone
+    LiveView live; // last: its threads call look() until it is destroyed
 };
 
 bool can_denoise() {
@@ -313,7 +312,7 @@ TEST_CASE("live frames: during a drag no picture is a mixture of two scenes") {
             const glm::vec3 c = f->image.color[i];
             return c.r > 3 * c.g && c.r > 3 * c.b;
         });
-        // As the camera sees it: z = 3.8 away, 60 degrees over the height.
+        // In the camera's view: z = 3.8 away, 60 degrees over the height.
         const double expected = 0.5 + where[f->request] / (2 * 3.8 * std::tan(0.5236) * 240 / 180);
         INFO("request " << f->request << ", " << f->image.width << " wide: ids " << ids << ", red " << red << ", "
                         << expected);
@@ -339,7 +338,7 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
                                ++second.scene.clock);
     options = {.size = {120, 200}, .document = 2, .samples = 4};
     const auto asked = r.live.show(second.scene, options);
-    const FramePtr at_once = r.live.best(true); // what the window's very next frame shows
+    const FramePtr at_once = r.live.best(true); // content of the window's next frame
     CHECK((!at_once || at_once->document == 2));
     r.wait([&](const Frame& f) { return f.request == asked && !f.clay && f.divider == 1; });
     const auto all = r.frames();
@@ -370,7 +369,7 @@ TEST_CASE("live frames: another document begins with clay, and nothing of the ol
 }
 
 // A type not used before, in an open document: the shader is compiled while rendering continues.
-TEST_CASE("live frames: a new type of material shows its colour at once, and the status says what compiles") {
+TEST_CASE("live frames: a new type of material shows its colour immediately, and the status names the compiling type") {
     const test::TemporaryFolder cache; // nothing is compiled yet
     Recorder r({.cache_dir = cache.path()});
     Room room;
@@ -417,13 +416,13 @@ TEST_CASE("live frames: a new type of material shows its colour at once, and the
         const glm::dvec3 seen = colour(*frame);
         INFO(seen.r << " " << seen.g << " " << seen.b << " of " << frame->image.samples << " samples");
         CHECK(seen.g > 0.3 * right.g); // never black
-        CHECK(seen.r < most_red * (seen.r + seen.g + seen.b)); // nor red, as it was
+        CHECK(seen.r < most_red * (seen.r + seen.g + seen.b)); // nor red, as before
         ++meanwhile;
     }
     CHECK(meanwhile >= 2);
 }
 
-TEST_CASE("live frames: a lost device is opened again, once") {
+TEST_CASE("live frames: a lost device is reopened once") {
     {
         Recorder r({.fault = std::make_shared<gpu::DeviceFault>(40, 1)});
         Room b;
@@ -435,7 +434,7 @@ TEST_CASE("live frames: a lost device is opened again, once") {
         const auto next = r.live.show(b.scene, {.size = {64, 48}, .denoise = false, .samples = 4});
         r.wait([&](const Frame& f) { return f.request == next && !f.clay && f.image.samples == 4; });
     }
-    // Lost again before any picture: it is reported, and not retried for ever.
+    // Lost again before any picture: reported, and not retried forever.
     const auto fault = std::make_shared<gpu::DeviceFault>(1, 1000);
     Recorder r({.fault = fault});
     Room b;

@@ -68,10 +68,10 @@ TEST_CASE("live view: a picture to its target, then another scene") {
     REQUIRE(view.finished());
     CHECK(view.live.frame()->request == second);
     CHECK(std::abs(mean(*view.live.frame()) - 3) < 0.06);
-    CHECK(std::abs(mean(*frame) - 1) < 0.02); // what was handed out stays as it was
+    CHECK(std::abs(mean(*frame) - 1) < 0.02); // pictures handed out are unchanged
 }
 
-TEST_CASE("live view: of many requests the last is shown in the end, and none is a mixture") {
+TEST_CASE("live view: of many requests the last is shown finally, and no picture is a mixture") {
     View view;
     Floor b;
     std::uint64_t last = view.live.show(b.scene, {.size = {320, 240}, .denoise = false, .samples = 1});
@@ -179,7 +179,7 @@ TEST_CASE("live view: a visible change restarts") {
     change("deleted", [&] { s.instances.set(ball, {}, ++s.clock); });
 }
 
-TEST_CASE("live view: paused, it keeps the picture; resumed, it goes on") {
+TEST_CASE("live view: paused, it keeps the picture; resumed, it continues") {
     View view;
     Floor b;
     view.live.show(b.scene, {.size = {64, 48}, .denoise = false, .paused = true});
@@ -192,7 +192,7 @@ TEST_CASE("live view: paused, it keeps the picture; resumed, it goes on") {
     REQUIRE(view.wait([](const ViewStatus& s) { return s.current && s.state == ViewState::done && s.samples == 16; }));
 }
 
-TEST_CASE("live view: a large picture begins coarse and ends whole") {
+TEST_CASE("live view: a large picture begins coarse and ends at full resolution") {
     View view;
     Floor b;
     view.live.show(b.scene, {.size = {1600, 1200}, .denoise = false, .samples = 1});

@@ -17,7 +17,7 @@ const model::Material bad_table{
     .prefix = "bad",
     .glsl_file = "bad.glsl",
     .params = {{.id = "mode", .label = "Mode", .type = model::ParamType::integer, .int_max = 8}}};
-// A white diffuse surface except for what the mode spoils.
+// A white diffuse surface, except for the mode's fault.
 const char* const bad_glsl = R"(
 #include <restage/v1/sampling.glsl>
 float bad_value(bad_Params m, int mode, float good) { return m.mode == mode ? uintBitsToFloat(0x7fc00000u) : good; }
@@ -80,7 +80,7 @@ TEST_CASE("a material's non-finite values are counted under its name") {
     }
 }
 
-TEST_CASE("a sky too bright for the film is left out, counted, and spoils no error estimate") {
+TEST_CASE("a sky too bright for the film is dropped, counted, and does not affect error estimates") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     for (const float bright : {1e15f, 1e20f, 1e38f}) { // a square of 1e20 overflows
@@ -106,7 +106,7 @@ TEST_CASE("a sky too bright for the film is left out, counted, and spoils no err
     }
 }
 
-TEST_CASE("a constant sky that no film can hold is refused with a message") {
+TEST_CASE("a constant sky too bright for any film is refused with a message") {
     const auto renderer = make_renderer("embree");
     SceneBuilder b;
     b.set_film(16, 16);
@@ -117,7 +117,7 @@ TEST_CASE("a constant sky that no film can hold is refused with a message") {
     CHECK(synced.error().message.find("environment") != std::string::npos);
 }
 
-TEST_CASE("a texture with NaN in it spoils no picture, and the log names it") {
+TEST_CASE("a texture with NaN does not spoil the picture, and is named in the log") {
     const std::string tracer = GENERATE("embree", "vulkan");
     SceneBuilder b;
     b.set_film(16, 16);

@@ -101,7 +101,7 @@ TEST_CASE("quadrics: the shape behind a mesh is read from its line") {
         CHECK_FALSE(read(line));
 }
 
-TEST_CASE("quadrics: lamps shine by their closed forms") {
+TEST_CASE("quadrics: lamps agree with their closed forms") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto seen = [&](const std::string& line, const glm::dmat4& place, double height = 2) {
@@ -122,12 +122,12 @@ TEST_CASE("quadrics: lamps shine by their closed forms") {
     check_radiance(seen("disk \"float radius\" 2 \"float innerradius\" 1 \"float height\" 1", at({0, 0, 2})),
                    5 * (form(2, 3) - form(1, 3)), 8e-3);
     check_radiance(seen("disk \"float radius\" 2 \"float phimax\" 90", at({0, 0, 3})), 5 * form(2, 3) / 4, 8e-3);
-    // From inside: a floor within a sphere that shines inwards sees nothing else.
+    // From inside: a floor within a sphere that emits inwards sees nothing else.
     check_radiance(seen("sphere \"float radius\" 40", at({0, 0, 0})), 5, 2e-2);
     check_radiance(seen("sphere \"float radius\" 3 \"float zmin\" 0", at({0, 0, 0})), 5, 2e-2); // a dome
 }
 
-TEST_CASE("quadrics: every strategy sees the same lamp, triangles too, at any scale") {
+TEST_CASE("quadrics: every strategy gives the same lamp, as do triangles, at any scale") {
     const std::string tracer = GENERATE("embree", "vulkan");
     struct Case {
         const char* line;
@@ -195,7 +195,7 @@ TEST_CASE("quadrics: alpha is decided separately where a ray enters and where it
 }
 
 TEST_CASE("quadrics: no ray that leaves one hits it again") {
-    // In a sky of 1 a white convex thing is as bright as the sky, in every sample; so is smooth glass.
+    // In a sky of 1 a white convex object is as bright as the sky, in every sample; so is smooth glass.
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     struct Case {
@@ -220,11 +220,11 @@ TEST_CASE("quadrics: no ray that leaves one hits it again") {
         b.scene.settings.value.max_depth = 1;
         renderer->forget_scene();
         const auto image = render_image(*renderer, b.scene, 64);
-        // Light comes from the sky by both strategies; only what meets the shape itself is missing.
+        // Light comes from the sky by both strategies; only rays that hit the shape itself would be missing.
         INFO(tracer << ": " << c.line);
         const Mean m = mean_luminance(image);
         INFO(m.value << " +- " << m.std_error);
-        const bool hollow = std::string(c.line).starts_with("cylinder"); // its inside is seen, too
+        const bool hollow = std::string(c.line).starts_with("cylinder"); // its inside is visible, too
         CHECK(std::abs(m.value - 1) < (hollow ? 0.2 : 4 * m.std_error + 1e-4));
         const bool round = std::string(c.line).starts_with("sphere") && c.place[0].x == c.place[1].y;
         if (round) { // glass, in and out again; a flat ellipsoid would keep light for long
@@ -241,7 +241,7 @@ TEST_CASE("quadrics: no ray that leaves one hits it again") {
     }
 }
 
-TEST_CASE("quadrics: both tracers see the same, with uv, cut-outs, pieces and media") {
+TEST_CASE("quadrics: both tracers agree, with uv, cut-outs, parts and media") {
     SceneBuilder b;
     b.set_film(48, 48);
     b.set_camera({0, -7, 3}, {0, 0, 0.6}, {0, 0, 1}, 45);
@@ -283,7 +283,7 @@ TEST_CASE("quadrics: both tracers see the same, with uv, cut-outs, pieces and me
 }
 
 TEST_CASE("quadrics: the limb of a large sphere matches the closed form") {
-    // The share of the picture that a ball of radius 1000 covers, seen from 2 above it, at its horizon.
+    // The fraction of the picture that a ball of radius 1000 covers, seen from 2 above it, at its horizon.
     const auto renderer = make_renderer("embree");
     SceneBuilder b;
     b.set_film(16, 64);

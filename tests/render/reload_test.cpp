@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A material whose plugin is reloaded while it is rendered: the picture follows, a version that does not compile
-// changes nothing, and nothing of the old versions stays.
+// changes nothing, and nothing of the old versions remains.
 #include "base/file.hpp"
 #include "io/services.hpp"
 #include "paths.hpp"
@@ -55,7 +55,7 @@ struct Paint { // our plugins, and one that the test edits
         REQUIRE(write_file_atomic(folder / "paint.glsl", glsl(color)));
     }
     std::unique_ptr<render::Renderer> renderer(const std::string& tracer, bool stand_ins) {
-        // A sample of the sky by the material alone: each is the albedo, without noise.
+        // A sample of the sky by the material only: each is the albedo, without noise.
         render::RendererOptions options{
             .tracer = tracer, .strategy = render::Strategy::bsdf_only, .stand_ins = stand_ins};
         options.shader_dir = restage::test::source_dir() / "shaders";
@@ -104,7 +104,7 @@ TEST_CASE("an edited plugin reaches a running renderer", "[reload]") {
     REQUIRE(paint.registry.reload_changed().size() == 1);
     CHECK(near(color_of(*renderer, wall.scene), {0.9f, 0.1f, 0.5f}));
 
-    // Values live in the scene: they survive even a changed table.
+    // Values are in the scene: they survive even a changed table.
     auto m = wall.scene.materials[wall.paint];
     m.params.set("gray", scene::Value::number(0.25f));
     wall.scene.materials.set(wall.paint, m, ++wall.scene.clock);
@@ -133,7 +133,7 @@ TEST_CASE("a version that does not compile changes nothing, and the error names 
     CHECK(near(color_of(*renderer, wall.scene), glm::vec3(0.9f)));
 }
 
-TEST_CASE("a table of a hundred parameters: a texture is read in the line that has it, and in no other", "[reload]") {
+TEST_CASE("a table of a hundred parameters: a texture affects only its own parameter", "[reload]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Paint paint;
     std::string params = "[";
@@ -181,13 +181,13 @@ TEST_CASE("while an editor renders, the previous version stays until the new one
     CHECK(settled({0.2f, 0.4f, 0.6f}));
 }
 
-TEST_CASE("a hundred reloads leave no memory behind", "[reload]") {
+TEST_CASE("a hundred reloads leak no memory", "[reload]") {
     Paint paint;
     Wall wall;
     const auto renderer = paint.renderer("embree", false);
     const char* const colors[] = {"vec3(0.2)", "vec3(0.7)"};
     std::uint64_t after_ten = 0;
-    for (int i = 0; i < 100; ++i) { // two texts: what is compiled is in the caches after the second
+    for (int i = 0; i < 100; ++i) { // two texts: compiled code is in the caches after the second
         paint.write(colors[i % 2], i % 2 ? two : one);
         REQUIRE(paint.registry.reload_changed().size() == 1);
         REQUIRE(near(color_of(*renderer, wall.scene), glm::vec3(i % 2 ? 0.7f : 0.2f)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer follows a scene: only what an edit touches changes, and a new scene keeps nothing of the old one.
+// The renderer follows a scene: an edit changes only what it touches, and a new scene keeps nothing of the old one.
 #include "render/fixture.hpp"
 #include "render/scene_builder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A second revision of the material interface (tests/plugins_bad/material2.h), beside the first: one adapter reads it,
-// and from there on nothing knows the difference, to the picture.
+// A second revision of the material interface (tests/plugins_bad/material2.h), in addition to the first: one adapter
+// reads it, and from there to the picture no other code sees the difference.
 #include "../plugins_bad/material2.h"
 #include "base/file.hpp"
 #include "fixture.hpp"
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// All that a program has to add for it.
+// Everything a program must add for it.
 Result<model::Material> read_material2(const void* table) {
     const auto& in = *static_cast<const TestMaterial2*>(table);
     const std::string file = in.code, type = file.substr(0, file.find('.'));
@@ -85,9 +85,9 @@ TEST_CASE("a second revision of an interface is one adapter", "[revision]") {
         UNSCOPED_INFO(line);
     REQUIRE(velvet);
     REQUIRE(silk);
-    CHECK(velvet->table->label == "Velvet of the second"); // the newest revision that both know
+    CHECK(velvet->table->label == "Velvet of the second"); // the newest revision supported by both
     CHECK(registry.find_material("diffuse")); // of the first, beside it
-    // Today's program takes of the same bundle what it knows.
+    // The current program uses the parts of the same bundle that it supports.
     plugin::Registry today(cloth.log);
     cloth.scan(today);
     REQUIRE(today.find_material("velvet"));
@@ -100,7 +100,7 @@ TEST_CASE("a second revision of an interface is one adapter", "[revision]") {
     CHECK(std::abs(center.z - 0.2f) < 1e-4f);
 }
 
-TEST_CASE("a bundle of the second revision alone needs a program that knows it", "[revision]") {
+TEST_CASE("a bundle of only the second revision needs a program that supports it", "[revision]") {
     Cloth cloth(R"("restage.material/2")");
     plugin::Registry registry(cloth.log, {.material_adapters = both});
     cloth.scan(registry);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edit -> picture -> file -> picture: a scene edited by the Session, exported and imported again is the
-// same scene and the same picture; undone to the start, the export is the same bytes.
+// Edit -> picture -> file -> picture: a scene edited by the Session, exported and reimported is the same
+// scene and the same picture; undone to the start, the export has the same bytes.
 #include "base/file.hpp"
 #include "document/session.hpp"
 #include "io/scene_compare.hpp"
@@ -83,7 +83,7 @@ TEST_CASE("edits of the bundled scene survive export and import, in structure an
         const auto here = trace_scene("embree", small(session.scene()), 64, 1);
         const auto there = trace_scene("embree", small(again->scene), 64, 2);
         check_independent(here.image, there.image);
-        CHECK(share_alike(before.image, here.image) < 0.9); // the edits are seen
+        CHECK(share_alike(before.image, here.image) < 0.9); // the edits are visible
     }
     while (session.undo()) {
     }

@@ -122,7 +122,7 @@ TEST_CASE("alias table: it draws its pmf, for any weights") {
         double sum = 0;
         for (double w : weights)
             sum += w;
-        // exact: the share of the unit interval that leads to each index
+        // exact: the fraction of the unit interval that leads to each index
         std::vector<double> drawn(n);
         double pmf = 0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -142,8 +142,8 @@ TEST_CASE("alias table: it draws its pmf, for any weights") {
 }
 
 TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
-    // One entry has 99 % of the weight; the other 131071 share the rest. With 24-bit numbers, what is left of the one
-    // that chose among them has 7 bits, too coarse for their 1 %: the sampler gives the shader a second one.
+    // One entry has 99 % of the weight; the other 131071 share the rest. With 24-bit numbers, the remainder of the one
+    // that chose among them has 7 bits, too coarse for their 1 %: so the sampler gives the shader a second one.
     constexpr std::uint32_t n = 1 << 17, draws = 1 << 20;
     std::vector<double> weights(n, 0.01 / (n - 1));
     weights[12345] = 0.99;
@@ -177,7 +177,7 @@ TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
 }
 
 TEST_CASE("alias table: each of 33 million texels can be reached") {
-    constexpr std::uint32_t count = 8192 * 4096; // twice what the 24 bits of a float tell apart
+    constexpr std::uint32_t count = 8192 * 4096; // twice what the 24 bits of a float can distinguish
     std::vector<std::uint32_t> bits;
     for (std::uint32_t i = 0; i < 4096; ++i)
         bits.push_back((7919u * i % count) * 128u + i % 128); // 2^32 / count = 128 numbers lead to each
@@ -225,7 +225,7 @@ TEST_CASE("light table: chosen by power, and the densities sum to one") {
     CHECK(table.environment == 9);
 }
 
-TEST_CASE("octahedral and equirectangular maps: there and back") {
+TEST_CASE("octahedral and equirectangular maps: round trip") {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<glm::vec2> uv;
@@ -247,7 +247,7 @@ TEST_CASE("octahedral and equirectangular maps: there and back") {
     for (std::size_t i = 0; i < uv.size(); ++i) {
         const glm::dvec3 w(octahedral[i].direction);
         length = std::max(length, std::abs(glm::length(w) - 1));
-        if (i < 20000) { // one point of the sphere may have several places at the border
+        if (i < 20000) { // one point of the sphere may have several positions at the border
             worst = std::max(worst, double(glm::length(octahedral[i].back - uv[i])));
             mean += w / 20000.0;
             second += glm::outerProduct(w, w) / 20000.0;

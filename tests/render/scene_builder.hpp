@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small scenes made in code, for tests with a closed form.
+// Small scenes built in code, for tests with a closed form.
 #pragma once
 
 #include "scene/edit.hpp"

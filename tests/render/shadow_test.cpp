@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shadow rays end: objects close to a lamp shade it, and no lamp shades itself.
+// Ends of shadow rays: objects close to a lamp shade it, and no lamp shades itself.
 #include "render/checks.hpp"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -59,14 +59,15 @@ TEST_CASE("no lamp shades itself, at grazing angles or far away") {
             b.set_camera({distance, 0, 0.5}, {distance, 0, 0}, {0, 1, 0}, 0.5f); // a patch of 0.4 cm
             b.scene.settings.value.max_depth = 1;
             b.instance(b.quad({-999, -999, 0}, {999, -999, 0}, {999, 999, 0}, {-999, 999, 0}), b.diffuse(1, 1, 1));
-            scene::MeshData lamp{.triangles = {{0, 1, 2}, {0, 2, 3}}}; // a square of 0.2 at height 1, shining down
+            scene::MeshData lamp{.triangles = {{0, 1, 2}, {0, 2, 3}}}; // a square of 0.2 at height 1, emitting down
             const glm::dmat4 to_object = glm::inverse(c.place * glm::translate(glm::dmat4(1), -c.baked));
             for (const glm::dvec2& p : {glm::dvec2(-0.1, -0.1), {-0.1, 0.1}, {0.1, 0.1}, {0.1, -0.1}})
                 lamp.positions.emplace_back(to_object * glm::dvec4(p, 1, 1));
             const auto mesh = b.mesh(std::move(lamp));
             b.instance(mesh, b.diffuse(0, 0, 0), c.place * glm::translate(glm::dmat4(1), -c.baked),
                        scene::Emission{glm::vec3(float(distance * distance))});
-            // L / pi * integral of cos cos / d^2 over the lamp as its floats are: grazing, their tilt counts
+            // L / pi * integral of cos cos / d^2 over the lamp as rounded to floats: at grazing angles their tilt
+            // matters
             const auto& floats = b.scene.meshes[mesh].data->positions;
             const glm::dmat4 place = c.place * glm::translate(glm::dmat4(1), -c.baked);
             const auto world = [&](int i) { return glm::dvec3(place * glm::dvec4(floats[std::size_t(i)], 1)); };

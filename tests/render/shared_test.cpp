@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of shaders/shared that C++ and GLSL both compile: the same inputs give the same answers in both.
+// Functions of shaders/shared, compiled as C++ and as GLSL: the same inputs give the same results in both.
 #include "kernel_lab.hpp"
 #include "scene/light_kinds.hpp"
 #include "shared/hash.h"
@@ -69,7 +69,7 @@ TEST_CASE("the outside of a triangle is the same in C++ and in GLSL", "[shared]"
     }
 }
 
-TEST_CASE("a lamp sends the same to a point in C++ and in GLSL", "[shared]") {
+TEST_CASE("a lamp's light at a point is the same in C++ and in GLSL", "[shared]") {
     struct In {
         std::uint32_t lamp;
         glm::vec3 position, axis, cone, p;
@@ -101,7 +101,7 @@ TEST_CASE("a lamp sends the same to a point in C++ and in GLSL", "[shared]") {
     }
 }
 
-TEST_CASE("the octahedral map is the same in C++ and in GLSL, and leads back", "[shared]") {
+TEST_CASE("the octahedral map is the same in C++ and in GLSL, and invertible", "[shared]") {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<glm::vec2> inputs{{0, 0}, {1, 1}, {0.5f, 0.5f}, {0.5f, 0}, {0, 0.5f}, {1, 0.25f}, {0.25f, 0.75f}};
@@ -119,7 +119,7 @@ TEST_CASE("the octahedral map is the same in C++ and in GLSL, and leads back", "
         const glm::dvec3 w = shared::octahedral_to_direction(inputs[i]);
         CHECK(std::abs(glm::length(w) - 1) < 1e-12);
         CHECK(glm::length(glm::dvec3(out[i]) - w) < 2e-6);
-        // An edge of the square is folded onto itself: both of its points mean the same direction.
+        // An edge of the square is folded onto itself: both of its points are the same direction.
         CHECK(glm::length(shared::octahedral_to_direction(shared::direction_to_octahedral(w)) - w) < 1e-7);
         CHECK(glm::length(shared::octahedral_to_direction(glm::dvec2(back[i])) - w) < 1e-3);
         CHECK(glm::length(glm::dvec2(wrapped[i]) - shared::octahedral_wrap(glm::dvec2(3.f * inputs[i] - 1.f))) < 1e-6);

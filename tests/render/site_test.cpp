@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Site that materials may ask for: its numbers against closed forms, in both tracers, with a material that shows
-// them as its albedo under a white sky, which one sample of the BSDF finds without noise.
+// The Site that materials may request: its values against closed forms, in both tracers, with a material that shows
+// them as its albedo under a white sky, where one sample of the BSDF is free of noise.
 #include "fixture.hpp"
 #include "io/services.hpp"
 #include "render/material_composer.hpp"
@@ -48,7 +48,7 @@ struct Wall : SceneBuilder { // 4 x 4, around the origin, in the plane z = 0
         look_from(eye);
     }
     void look_from(glm::dvec3 from) { set_camera(eye = from, {0, 0, 0}, up, fov); }
-    // Where the ray of a point of the film meets the wall (left as it is, no `place`).
+    // Where the ray of a point of the film hits the wall (untransformed).
     glm::dvec3 meets(double x, double y) const {
         const glm::dvec3 f = glm::normalize(-eye), r = glm::normalize(glm::cross(up, f)), u = glm::cross(f, r);
         const glm::dvec3 d = f + pixel * ((x - width / 2) * r + (height / 2 - y) * u);
@@ -91,7 +91,7 @@ TEST_CASE("uv and their changes, and lengths in the object's space, follow the s
     const glm::vec3 duv = at(dots.image(by_change.scene, tracer), 48, 32);
     CHECK(std::abs(duv.x / (3 * pixel / 4) - 1) < 1e-3);
     CHECK(std::abs(duv.y / (3 * pixel / 4) - 1) < 1e-3);
-    // Twice as large: as many pixels see half as much of it.
+    // Twice as large: the same pixels cover half as much of it.
     const Wall large("dp", glm::scale(glm::dmat4(1), glm::dvec3(2)));
     const glm::vec3 dp = at(dots.image(large.scene, tracer), 48, 32);
     CHECK(std::abs(dp.x / (3 * pixel / 2) - 1) < 1e-3);
@@ -136,7 +136,7 @@ TEST_CASE("both tracers show the same procedural", "[site]") {
     CHECK(sum > 0.1 * double(a.color.size()));
 }
 
-TEST_CASE("a material that does not ask for its site carries no code for it", "[site]") {
+TEST_CASE("a material without the site flag contains no code for it", "[site]") {
     Dots dots;
     for (const plugin::MaterialEntry& entry : dots.registry.materials()) {
         render::MaterialType type;

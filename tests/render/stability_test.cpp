@@ -54,7 +54,7 @@ TEST_CASE("a scene scaled and moved gives the same picture") {
                                {1.0, glm::dvec3(1e5, -1e5, 1e5)},
                                {1e-3, glm::dvec3(1e5, 7e4, -1e5)},
                                {1e5, glm::dvec3(-1e5, 1e5, 1e5)}}) {
-        if (tracer == "vulkan" && t == glm::dvec3(0)) continue; // its pipelines take seconds a scene on a CPU
+        if (tracer == "vulkan" && t == glm::dvec3(0)) continue; // its pipelines take seconds per scene on a CPU
         const auto image = render(s, t);
         const Mean m = mean_luminance(image);
         const double alike = share_alike(base, image);
@@ -74,7 +74,7 @@ TEST_CASE("a closed box is black inside, for any light outside") {
         glm::dvec3 move;
         float reach = 1; // walls extend this many times beyond the room
         int allowed =
-            0; // pixels with light, of 1024, where floats cannot say on which side of the next wall a point is
+            0; // pixels with light, of 1024, where floats cannot resolve on which side of the next wall a point is
         int fan = 0; // each wall a fan of so many grazing triangles about a point near its border
     };
     for (const Case& c : {Case{"plain", 1, {0, 0, 0}},
@@ -86,7 +86,7 @@ TEST_CASE("a closed box is black inside, for any light outside") {
                           {"walls of 1e4", 1, {0, 0, 0}, 1e4f, 100},
                           {"slivers", 1, {0, 0, 0}, 1, 0, 200}}) {
         if (tracer == "vulkan" && (c.reach == 100 || c.reach == 1000))
-            continue; // its pipelines take seconds a scene on a CPU
+            continue; // its pipelines take seconds per scene on a CPU
         SceneBuilder b;
         const glm::dmat4 m = placed(c.move, c.scale) * glm::rotate(glm::dmat4(1), 0.6, glm::dvec3(1, 0.4, -0.3));
         const auto inside = [&](glm::dvec3 p) { return glm::dvec3(m * glm::dvec4(p, 1)); };
@@ -138,7 +138,7 @@ TEST_CASE("a closed box is black inside, for any light outside") {
 }
 
 TEST_CASE("convex objects do not shadow themselves") {
-    // Albedo 1 under a white sky, one bounce, light found by BSDF sampling alone: each sample is exactly 1 unless its
+    // Albedo 1 under a white sky, one bounce, light found by BSDF sampling only: each sample is exactly 1 unless its
     // ray hits the surface it left.
     const std::string tracer = GENERATE("embree", "vulkan");
     render::RendererOptions options;
@@ -149,7 +149,7 @@ TEST_CASE("convex objects do not shadow themselves") {
         glm::dmat4 place;
         glm::dvec3 baked{0}; // where the mesh's own coordinates are
         double distance = 4;
-        double allowed = 1e-5; // share of samples lost
+        double allowed = 1e-5; // fraction of samples lost
     };
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), 1.1, glm::dvec3(1, 2, -0.5));
     for (const Case& c : {Case{"plain", turned},

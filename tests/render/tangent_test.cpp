@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normal maps against n.l: with the mesh's tangents (glTF), where uv are mirrored and where the object is, and without
+// Normal maps against n.l: with the mesh's tangents (glTF), for mirrored uv and mirrored objects, and without
 // tangents as in pbrt; both tracers.
 #include "render/checks.hpp"
 
@@ -23,7 +23,7 @@ const Quad quads[] = {
     {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, {1, 0, 0}, {0, 1, 0}},
     {{{{1, 0}, {0, 0}, {0, 1}, {1, 1}}}, {-1, 0, 0}, {0, 1, 0}},  // mirrored
     {{{{0, 1}, {1, 1}, {1, 0}, {0, 0}}}, {1, 0, 0}, {0, -1, 0}},  // mirrored
-    {{{{1, 1}, {0, 1}, {0, 0}, {1, 0}}}, {-1, 0, 0}, {0, -1, 0}}, // turned by 180 degrees
+    {{{{1, 1}, {0, 1}, {0, 0}, {1, 0}}}, {-1, 0, 0}, {0, -1, 0}}, // rotated by 180 degrees
     {{{{0, 1}, {0, 0}, {1, 0}, {1, 1}}}, {0, 1, 0}, {-1, 0, 0}},  // by 90
     {{{{0, 0}, {0, 1}, {1, 1}, {1, 0}}}, {0, 1, 0}, {1, 0, 0}},   // by 90, mirrored
 };
@@ -70,7 +70,7 @@ double expected(const glm::vec3& u, const glm::vec3& v, glm::dvec3 lamp) {
 
 } // namespace
 
-TEST_CASE("a normal map leans as its picture says, for any uv layout") {
+TEST_CASE("normals follow the normal map, for any uv layout") {
     const std::string tracer = GENERATE("embree", "vulkan");
     for (const Quad& quad : quads) {
         INFO(tracer << ", u along " << quad.u.x << " " << quad.u.y << ", v along " << quad.v.x << " " << quad.v.y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture plugin of somebody else's, without native code: as a colour, a bump map, a cut-out and the amount of a mix,
-// in both tracers, against closed forms; and what a reload of its GLSL does.
+// A third-party texture plugin without native code: as a colour, a bump map, a cut-out and the amount of a mix, in both
+// tracers, against closed forms; and a reload of its GLSL.
 #include "base/file.hpp"
 #include "fixture.hpp"
 #include "render/material_composer.hpp"
@@ -17,7 +17,7 @@ using namespace restage::tests;
 
 namespace {
 
-struct Steps { // our plugins, and one of steps in u, or by the place where it is asked
+struct Steps { // our plugins, and one with steps in u, or by position
     test::TemporaryFolder folder;
     std::string said;
     Log log{[this](LogLevel level, std::string_view line) {
@@ -106,7 +106,7 @@ float mean_of(const render::FilmImage& image, bool right) { // of one half of th
             sum += image.color[std::size_t(y * size + x + (right ? size / 2 : 0))].x;
     return sum / (size * size / 2.f);
 }
-// u grows to one side of the picture: which is known from the plain colour.
+// u grows towards one side of the picture, which is known from the plain colour.
 std::pair<float, float> halves(const render::FilmImage& image) {
     const float left = mean_of(image, false), right = mean_of(image, true);
     return {std::min(left, right), std::max(left, right)};
@@ -148,14 +148,14 @@ TEST_CASE("a texture plugin without native code cuts out, and is the amount of a
     CHECK(std::abs(cut.first - 0.25f) < 1e-5f);
     CHECK(std::abs(cut.second - 1) < 1e-5f);
 
-    // A share of it: half of the rays pass where it is 0.5, both through the first of two walls and through both
+    // A fraction: half of the rays pass where it is 0.5, through the first of two walls and through both
     const auto half = b.steps(0.5f, 0.5f);
     b.change([&](scene::Instance& i) { i.alpha_texture = half; });
     auto second = b.scene.instances[b.wall];
     second.object_to_world = glm::translate(glm::dmat4(1), {0, 0, -0.5}) * glm::scale(glm::dmat4(1), glm::dvec3(3));
     b.scene.instances.set(b.scene.instances.next(), second, ++b.scene.clock);
     const auto two = mean_luminance(steps.image(b.scene, tracer, 256));
-    // Light between the walls is not 1 but what came through: bounded from both sides by closed forms
+    // Light between the walls is not 1 but the transmitted part: bounded from both sides by closed forms
     CHECK(two.value < 0.25 + 0.75 * 0.25 + 5 * two.std_error);
     CHECK(two.value > 0.25 + 5 * two.std_error);
 
@@ -172,7 +172,7 @@ TEST_CASE("a texture plugin without native code cuts out, and is the amount of a
     CHECK(std::abs(mixed.second - 0.6f) < 1e-5f);
 }
 
-TEST_CASE("shadows pass what a texture without native code cuts out", "[texture_plugin]") {
+TEST_CASE("shadow rays pass through cut-outs by a texture without native code", "[texture_plugin]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Steps steps;
     Wall b; // lit from the front by a distant light, through a card that is cut out on one side
@@ -209,7 +209,7 @@ TEST_CASE("a texture plugin is a bump map like any other", "[texture_plugin]") {
     CHECK(std::abs(std::abs(n.z) - 1 / std::sqrt(1.04f)) < 1e-3f);
 }
 
-TEST_CASE("the GLSL of a texture is reloaded, and a broken one is not taken", "[texture_plugin][reload]") {
+TEST_CASE("the GLSL of a texture is reloaded, and a broken version is refused", "[texture_plugin][reload]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Steps steps;
     Wall b;
@@ -227,7 +227,7 @@ TEST_CASE("the GLSL of a texture is reloaded, and a broken one is not taken", "[
     CHECK(std::abs(halves(render_image(*renderer, b.scene, 1)).first - 0.7f) < 1e-5f);
 }
 
-TEST_CASE("a type that no plugin has shades as its average", "[texture_plugin]") {
+TEST_CASE("a type without a plugin shades as its average", "[texture_plugin]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     Steps steps;
     Wall b;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cubes in space against closed forms, and pictures of every type of texture before and after a pbrt file.
+// Cubes in space against closed forms, and pictures of every type of texture before and after a round trip through
+// pbrt.
 #include "fixture.hpp"
 #include "io/export.hpp"
 #include "io/import.hpp"
@@ -33,13 +34,13 @@ struct Wall : SceneBuilder {
 
 } // namespace
 
-TEST_CASE("the mean of cubes in space is their closed form", "[texture_plugin]") {
+TEST_CASE("the mean of cubes in space agrees with the closed form", "[texture_plugin]") {
     const std::string tracer = GENERATE("embree", "vulkan");
     constexpr float a = 0.8f, b = 0.2f;
     struct Case {
         const char* name;
         std::vector<std::pair<const char*, float>> placing;
-        float first; // share of the wall
+        float first; // fraction of the wall
     };
     const Case cases[] = {
         {"as the scene, between planes", {{"origin_z", 0.5f}}, 0.5f},
@@ -94,7 +95,7 @@ TEST_CASE("each type of texture looks the same after a pbrt file", "[texture_plu
     const int side = int(std::ceil(std::sqrt(double(types.size()))));
     w.set_film(std::uint32_t(12 * side), std::uint32_t(12 * side));
     int at = 0;
-    for (const plugin::TextureEntry& entry : types) { // a tile of each, with values that show
+    for (const plugin::TextureEntry& entry : types) { // a tile of each, with visible values
         const model::Texture& table = *entry.table;
         scene::ParamSet p;
         float v = 0.2f;
@@ -108,7 +109,7 @@ TEST_CASE("each type of texture looks the same after a pbrt file", "[texture_plu
             p.set("uscale", scene::Value::number(table.type == "bilerp" ? 1.f : 2.f));
             p.set("vdelta", scene::Value::number(0.125f));
         }
-        if (table.find("x_from_x")) { // turned, and finer than the scene's
+        if (table.find("x_from_x")) { // rotated, and finer than the scene's
             p.set("x_from_x", scene::Value::number(0));
             p.set("x_from_y", scene::Value::number(3));
             p.set("y_from_y", scene::Value::number(0));
@@ -137,7 +138,7 @@ TEST_CASE("each type of texture looks the same after a pbrt file", "[texture_plu
     for (std::size_t i = 0; i < before.color.size(); ++i)
         other += glm::length(before.color[i] - after.color[i]) > 0.02f;
     CHECK(other * 50 < before.color.size());
-    // And the picture is not one that any texture gives
+    // And the picture depends on the texture
     glm::vec3 sum(0);
     for (const glm::vec3& c : before.color)
         sum += c;

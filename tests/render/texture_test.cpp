@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures: the shader's evaluation equals the CPU's on random graphs, and both equal pbrt's definition where it is
-// simple.
+// Textures: the shader's evaluation equals the CPU's on random graphs, and both equal pbrt's definition in simple
+// cases.
 #include "render/fixture.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/kernel_lab.hpp"
@@ -184,7 +184,7 @@ TEST_CASE("textures: pbrt's conventions") {
     }
 }
 
-TEST_CASE("textures: every one that is shipped compiles, in both colour modes") {
+TEST_CASE("textures: every shipped one compiles, in both colour modes") {
     const auto judge = render::texture_judge(restage::test::source_dir() / "shaders");
     const gpu::ShaderCompiler compiler({.include_dirs = {restage::test::source_dir() / "shaders"}, .cache_dir = {}});
     const auto all = plugins().registry.textures();

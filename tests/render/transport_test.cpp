@@ -51,7 +51,7 @@ TEST_CASE("max_depth: 0 shows emitters, each step adds a bounce") {
     }
 }
 
-TEST_CASE("light sampling, BSDF sampling and both have one mean, with and without Russian roulette") {
+TEST_CASE("light sampling, BSDF sampling and both have the same mean, with and without Russian roulette") {
     const auto tracer = GENERATE("embree", "vulkan");
     std::vector<render::FilmImage> images;
     for (const auto strategy : {render::Strategy::mis, render::Strategy::light_only, render::Strategy::bsdf_only}) {
@@ -141,7 +141,7 @@ TEST_CASE("reverse_orientation and mirroring flip the emitting side, two-sided l
     ground(b, 1);
     b.scene.settings.value.max_depth = 1;
     const auto id = b.instance({}, b.diffuse(0, 0, 0));
-    for (const bool smooth : {false, true}) // with shading normals the mesh says which side is out
+    for (const bool smooth : {false, true}) // with shading normals the mesh defines the outside
         for (const bool mirrored : {false, true})
             for (const bool reversed : {false, true})
                 for (const bool two_sided : {false, true}) {
@@ -164,7 +164,7 @@ TEST_CASE("reverse_orientation and mirroring flip the emitting side, two-sided l
                 }
 }
 
-TEST_CASE("a low-polygon sphere in the light of one side is as bright as a fine one") {
+TEST_CASE("a low-polygon sphere lit from one side is as bright as a fine one") {
     const auto tracer = GENERATE("embree", "vulkan");
     const auto renderer = make_renderer(tracer);
     const auto render = [&](int rows, bool shading_normals) {

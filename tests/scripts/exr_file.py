@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the EXR files that Restage writes (one part, scan lines, ZIP), with only zlib and NumPy: a second opinion on
+"""Reads the EXR files that Restage writes (one part, scan lines, ZIP), with only zlib and NumPy: an independent check of
 their contents, not a general reader. After the "OpenEXR File Layout" document."""
 import struct
 import zlib

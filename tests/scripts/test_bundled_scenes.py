@@ -90,7 +90,7 @@ def test_generator_writes_the_same_scene(tmp_path):
 
 @pytest.mark.parametrize("seed", range(2))
 def test_no_shape_depends_on_the_last_bits_of_a_library(seed, tmp_path, monkeypatch):
-    """Sines, powers and lengths wrong by up to 4 ulp, as between processors and libraries."""
+    """Sines, powers and lengths off by up to 4 ulp, as between processors and libraries."""
     monkeypatch.syspath_prepend(ROOT / "tools")
     generator = importlib.import_module("make_demo_scene")
     random = np.random.default_rng(seed)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`restage check` of actions and panels: each step finds what breaks its promise."""
+"""`restage check` of actions and panels: each step finds violations of its requirement."""
 import json
 import os
 import pathlib
@@ -32,20 +32,20 @@ def test_a_sound_one_passes(tmp_path):
 
 
 @pytest.mark.parametrize("case, step, says", [
-    ("action_crashes", "act", ["crashed: SIGSEGV", "run() on a scene with something of everything", "a bug in run()"]),
+    ("action_crashes", "act", ["crashed: SIGSEGV", "run() on a scene with every kind of thing", "a bug in run()"]),
     ("action_silent", "act", ["run() returns 0, and error() was not called"]),
-    ("action_varies", "act", ["running it twice gives two different edits"]),
-    ("action_unsound", "act", ["what it returns is not a sound scene"]),
+    ("action_varies", "act", ["two identical runs give different edits"]),
+    ("action_unsound", "act", ["its edits are invalid"]),
     ("action_deaf_seed", "act", ['another "seed" gives the same edit']),
     ("action_throws", "act", ["threw an exception: no room on the stack"]),
     ("action_throws", "panel", ["draw() threw an exception: nothing to draw with"]),
-    ("action_stubborn", "act-stop", ["after progress() said stop, run() made", "changes more"]),
+    ("action_stubborn", "act-stop", ["after progress() returned 0, run() made", "more changes"]),
     ("action_leaks", "act-leaks", ["times runs leave", "bytes allocated"]),
     ("panel_range", "panel", ['set() of "copies": 21', "out of its range"]),
-    ("panel_group", "panel", ["a group that is open"]),
-    ("panel_id", "panel", ['run() names "stck", which is no action of the plugin']),
+    ("panel_group", "panel", ["an open group"]),
+    ("panel_id", "panel", ['run() names "stck", which is not an action of the plugin']),
 ])
-def test_what_breaks_a_promise_is_found(case, step, says, tmp_path):
+def test_a_violation_is_found(case, step, says, tmp_path):
     code, steps = steps_of(tmp_path / "plugin", case, "--only", step)
     assert code == 1 and steps[step]["verdict"] == "fail", steps
     for words in says:

@@ -77,7 +77,7 @@ def test_there_are_plugins():
 
 
 def test_the_rough_metal_without_a_fault_passes(tmp_path):
-    """The control of the tests below: they find the fault, nothing else."""
+    """The control for the tests below: they find the fault and nothing else."""
     code, failed = failures(broken(tmp_path / "plugin"))
     assert failed == {} and code == 0
 

@@ -66,25 +66,25 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
 @pytest.mark.parametrize("case, step, says", [
     ("importer_crashes", "read", ["crashed: SIGSEGV", "load() of its two.tri", "a bug in load()"]),
     ("importer_silent", "read", ["returns 0, and error() was not called"]),
-    ("importer_leaks", "read", ["files were left open"]),
+    ("importer_leaks", "read", ["files remain open"]),
     ("importer_varies", "read", ["two.tri twice gives different scenes"]),
-    ("importer_sure", "probe", ["answers 1000, which is not in 0..100"]),
-    ("importer_denies", "probe", ["probe() of its own two.tri answers 0"]),
+    ("importer_sure", "probe", ["returns 1000, which is not in 0..100"]),
+    ("importer_denies", "probe", ["probe() of its own two.tri returns 0"]),
     ("importer_cut", "cut", ["crashed: SIGSEGV", "bytes of its two.tri", "a bug in load()"]),
-    ("importer_deaf", "stop", ["two.tri: stopped on request; the plugin went on and asked 1"]),
+    ("importer_deaf", "stop", ["two.tri: stopped on request; the plugin continued, with 1"]),
     ("importer_leaks", "read-leaks", ["files are left open by 100 times load()"]),
     ("importer_loses", "read-leaks", ["bytes allocated", "not freed"]),
-    ("exporter_in_place", "write-stop", ["the file that was there is gone or changed"]),
-    ("exporter_in_place", "place", ["to a disk that is full: the file that was there is gone or changed"]),
-    ("exporter_litters", "write-stop", ["it leaves scene.names.part beside the file"]),
-    ("exporter_deaf", "write-stop", ["the file that was there is gone or changed"]),
-    ("exporter_careless", "place", ["to a disk that is full: save() returns 1"]),
+    ("exporter_in_place", "write-stop", ["the existing file is gone or changed"]),
+    ("exporter_in_place", "place", ["to a full disk: the existing file is gone or changed"]),
+    ("exporter_litters", "write-stop", ["it leaves scene.names.part next to the file"]),
+    ("exporter_deaf", "write-stop", ["the existing file is gone or changed"]),
+    ("exporter_careless", "place", ["to a full disk: save() returns 1"]),
     ("exporter_silent", "place", ["through a file: save() returns 0, and error() was not called"]),
     ("exporter_loses", "write-leaks", ["bytes allocated", "not freed"]),
-    ("both_transposed", "roundtrip", ["read back by the importer both, the corners are at"]),
-    ("both_digits", "roundtrip", ["read back by the importer both, the corners are at"]),
-    ("both_refused", "roundtrip", ["the importer both does not read it", "expected: nine numbers"]),
-    ("both_loses", "roundtrip", ["9 triangles have become 6"]),
+    ("both_transposed", "roundtrip", ["read back by the importer both, the mean of the vertices is"]),
+    ("both_digits", "roundtrip", ["read back by the importer both, the mean of the vertices is"]),
+    ("both_refused", "roundtrip", ["the importer both cannot read it", "expected: nine numbers"]),
+    ("both_loses", "roundtrip", ["9 triangles became 6"]),
     ("denoiser_loses", "denoise-leaks", ["bytes allocated", "not freed"]),
     ("denoiser_darkens", "denoise", ["% in the mean"]),
     ("denoiser_varies", "robust", ["twice"]),
@@ -94,13 +94,13 @@ def test_a_sound_inspector_and_reader_pass(step, tmp_path):
     ("denoiser_size", "sizes", ["1x1 pixels with guides: refused: only 96x64"]),
     ("denoiser_nan", "robust", ["nan in some pixels"]),
     ("denoiser_guides", "denoise", ["crashed: SIGSEGV", "no guides", "a bug in run()"]),
-    ("denoiser_overruns", "denoise", ["writes behind the end of its output"]),
+    ("denoiser_overruns", "denoise", ["writes past the end of its output"]),
     ("inspector_range", "inspector", ["set() of \"share\": 2.000000 is out of its range"]),
     ("inspector_crashes", "inspector", ["crashed: SIGSEGV", "draw() number", "a bug in draw()"]),
     ("inspector_group", "inspector", ["an open group"]),
     ("table_crashes", "tables", ["crashed: SIGSEGV", "read() of noise", "a bug in read()"]),
 ])
-def test_a_broken_promise_is_found(case, step, says, tmp_path):
+def test_a_violation_is_found(case, step, says, tmp_path):
     code, steps = steps_of(folder_of(tmp_path / "plugin", case), "--only", step)
     assert code == 1 and steps[step]["verdict"] == "fail", steps
     for words in says:
@@ -131,7 +131,7 @@ def test_without_a_vulkan_driver_it_is_not_the_plugin_that_fails(tmp_path):
 
 
 def test_a_third_party_denoiser_is_used_if_named_and_the_file_says_so(tmp_path):
-    """Regression: the first one on the path replaced the program's own, and the file said "oidn high"."""
+    """Regression: the first one on the path replaced the program's own, but the file named "oidn high"."""
     folder_of(tmp_path / "plugin", "denoiser_sound")
     cornell = ROOT / "scenes/cornell/cornell.pbrt"
     for name, extra, label in (("own", ["--denoise"], "oidn high"), ("type", ["--denoiser", "copy"], "copy high"),

@@ -102,7 +102,7 @@ def test_what_sampling_does_not_reach_is_found(fault, step, says, tmp_path):
 
 @pytest.mark.parametrize("factor, passes", [("1.0", True), ("1.8", False)])
 def test_a_sharp_lobe_of_a_stochastic_material_is_integrated_with_its_error(factor, passes, tmp_path):
-    """The share that is not delta is 0.65; a sum over a coarse grid made 1.45 of such a lobe."""
+    """The non-delta fraction is 0.65; a sum over a coarse grid gave 1.45 for such a lobe."""
     code, steps = check(material(tmp_path / "grey", STOCHASTIC.replace("$PDF", factor), ["transmissive", "stochastic"]),
                         "--only", "expectation")
     step = steps["expectation"]

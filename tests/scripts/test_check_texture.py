@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`restage check` of textures: what is shipped and what is right passes, and each promise that is broken is found."""
+"""`restage check` of textures: shipped and correct ones pass, and each violation is found."""
 import json
 import os
 import pathlib
@@ -67,13 +67,13 @@ def test_a_sound_one_passes(tmp_path, fault):
     ("binding", "texture-glsl", ["broken.glsl:1: \"layout\": a plugin's GLSL has no bindings"]),
     ("engine", "texture-glsl", ["broken.glsl:1: cannot include <path/surface.glsl>"]),
     ("scene", "texture-glsl", ["broken.glsl:1: 'SceneData' : undeclared identifier"]),
-    ("place", "texture-glsl", ["broken.glsl:1:", "place"]),  # it has not asked for its site
+    ("place", "texture-glsl", ["broken.glsl:1:", "place"]),  # it has not requested its site
     ("three", "texture-glsl", ["broken.glsl:1:", "in spectral mode", "texture_color()"]),
     ("rgb", "texture-glsl", ["broken.glsl:1:", "in spectral mode"]),
     ("prefix", "texture-names", ["broken.glsl:1: \"helper\" does not start with the plugin's prefix \"broken_\""]),
     ("nan_beyond_half", "texture-values", ["it is", "nan", "at uv (", "part="]),
     ("inf_at_zero", "texture-values", ["it is", "inf", "at uv (0, "]),
-    ("idle", "texture-params", ["\"part\" changes nothing, wherever in its range"]),
+    ("idle", "texture-params", ["\"part\" has no effect anywhere in its range"]),
 ])
 def test_a_fault_in_glsl_is_found(fault, step, says, tmp_path):
     code, steps = check(folder_of(tmp_path / "plugin", fault=fault), "--only", step)
@@ -83,8 +83,8 @@ def test_a_fault_in_glsl_is_found(fault, step, says, tmp_path):
 
 
 @pytest.mark.parametrize("library, says", [
-    ("index", ["places it is another value than the GLSL's", "the index of a value"]),
-    ("formula", ["places it is another value than the GLSL's", "a formula that was changed once"]),
+    ("index", ["places it differs from the GLSL", "the index of a value"]),
+    ("formula", ["places it differs from the GLSL", "a formula changed in one of the two only"]),
     ("crashes", ["crashed: SIGSEGV", "eval()"]),
 ])
 def test_a_fault_in_native_code_is_found(library, says, tmp_path):

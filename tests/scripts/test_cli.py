@@ -50,12 +50,12 @@ def test_an_unknown_command_line_is_a_usage_error(args):
     (["convert", CORNELL, "x.unknownformat"], "unknownformat"),
     (["convert", CORNELL, "x.pbrt", "--set", "version=v9"], "v9"),
     (["convert", CORNELL, "x"], "no extension to tell the format by"),
-    (["convert", CORNELL, "x.png"], "a scene becomes a picture with `restage render`"),
+    (["convert", CORNELL, "x.png"], "use `restage render` to make a picture of a scene"),
     (["convert", CORNELL, "x.pbrt", "--exposure", 1], "--exposure is for pictures"),
     (["render", CORNELL, "-o", "x.png", "--format", "gltf"], "--format is for a scene on stdin"),
     (["render", CORNELL, "-o", "x.png", "--resume", "nowhere.exr"], "nowhere.exr: cannot be opened"),
     (["render", CORNELL, "-o", "x.png", "--statistics", "no/x.json"], "--statistics: no/x.json: there is no folder no"),
-    (["render", CORNELL, "-o", "gif:-"], "-o gif:-: stdout takes exr:-, png:-"),
+    (["render", CORNELL, "-o", "gif:-"], "-o gif:-: for stdout use exr:-, png:-"),
     (["edit", "nowhere.pbrt"], "nowhere.pbrt: cannot be opened"),
     (["compare", CORNELL, "x.png"], "one is a scene, the other is not"),
     (["compare", CORNELL, CORNELL, "--diff", "d.png"], "of two scenes only the differences are listed"),
@@ -109,14 +109,14 @@ def test_the_error_of_luminance_is_less_than_the_sum_of_its_channels_errors(tmp_
     layers = exr_file.read(out)
     r, g, b, y = (layers[f"stderr.{c}"].astype(float) for c in "RGBY")
     luminance = 0.2126 * layers["R"] + 0.7152 * layers["G"] + 0.0722 * layers["B"]
-    sum_of_errors = 0.2126 * r + 0.7152 * g + 0.0722 * b # what it would be with fully correlated channels
+    sum_of_errors = 0.2126 * r + 0.7152 * g + 0.0722 * b # the bound for fully correlated channels
     rounding = 1e-6 + 1e-4 * luminance # sums of squares are floats
     assert y.min() >= 0 and y.max() > 0
     assert np.all(y <= sum_of_errors + rounding)
     # Each pixel chooses one of three independent lights per sample: the channels' errors differ.
     noisy = sum_of_errors > np.median(sum_of_errors)
     assert np.median(y[noisy] / sum_of_errors[noisy]) < 0.95
-    # At least what remains if the other channels cancel as much of green's error as they can.
+    # At least the remainder if the other channels cancel as much of green's error as they can.
     assert np.all(y >= 0.7152 * g - 0.2126 * r - 0.0722 * b - rounding)
 
 
@@ -218,7 +218,7 @@ def test_demo_runs_the_main_job(tmp_path):
 
 
 def test_a_region_is_part_of_the_picture_and_equal_renders_are_equal_files(tmp_path):
-    """The crop of pbrt by shares, the same by pixels; no time is in the file; several outputs, statistics."""
+    """pbrt's crop by fractions, likewise by pixels; the file contains no times; several outputs, statistics."""
     common = [CORNELL, "--size", "64x48", "--spp", 2, "--seed", 3]
     for name, extra in (("whole", []), ("again", []), ("region", ["--region", 16, 12, 32, 24]), ("crop", ["--crop", 0.25, 0.75, 0.25, 0.75])):
         done = restage("render", *common, "-o", tmp_path / f"{name}.exr", "-o", tmp_path / f"{name}.jpg",
@@ -257,7 +257,7 @@ def test_a_picture_becomes_another_format_and_compare_has_a_verdict(tmp_path):
     assert restage("convert", tmp_path / "a.exr", tmp_path / "bright.exr", "--exposure", 2).returncode == 0
     brighter = json.loads(restage("compare", tmp_path / "bright.exr", tmp_path / "a.exr", "--json").stdout)
     assert brighter["luminance_a"] == pytest.approx(4 * brighter["luminance_b"], rel=1e-5)
-    # Another picture, with both errors known: the z-test is the exit code; a share of blocks may replace it.
+    # A different picture, with both errors known: the z-test decides the exit code, unless a fraction of blocks replaces it.
     assert restage("render", CORNELL, "-o", tmp_path / "dark.exr", "--size", "32x32", "--spp", 4, "--max-depth", 1).returncode == 0
     done = restage("compare", tmp_path / "a.exr", tmp_path / "dark.exr", "--json")
     assert done.returncode == 1 and "the z-test fails" in done.stderr and not json.loads(done.stdout)["passes"]
@@ -296,7 +296,7 @@ def test_a_render_is_resumed_and_parts_are_merged(tmp_path):
     done = restage("merge", tmp_path / "first.exr", tmp_path / "whole.exr", "-o", tmp_path / "no.exr")
     assert done.returncode == 1 and "hold the same samples, of seed 5" in done.stderr and not (tmp_path / "no.exr").exists()
     done = restage(*common, "-o", tmp_path / "no.exr", "--resume", tmp_path / "whole.exr", "--spp", 6)
-    assert done.returncode == 1 and "has 6 samples a pixel already" in done.stderr and not (tmp_path / "no.exr").exists()
+    assert done.returncode == 1 and "has 6 samples per pixel already" in done.stderr and not (tmp_path / "no.exr").exists()
 
 
 def test_scenes_from_stdin_and_pictures_to_stdout(tmp_path):
@@ -385,7 +385,7 @@ def test_a_camera_is_chosen_by_name_or_number(tmp_path):
     (["--threads", 100000], "--threads: 100000 is out of range: it must be from 0 to 1024"), (["--tracer", "foo"], '--tracer: "foo" is not one of embree,vulkan'),
     (["--set"], "--set takes a value"), (["--exposure"], "--exposure takes a value"), (["--size", "8x8", "--size", "9x9"], "--size is given more than once"),
     (["--isolate-memory", "nan"], "nan is not a finite number"), (["--exposure", 65], "--exposure: 65 is out of range: it must be from -64 to 64"),
-    (["--crop", 0, 1, 0], "--crop takes 4 values, and got 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is not a number"),
+    (["--crop", 0, 1, 0], "--crop takes 4 values, not 3"), (["--crop", "a", "b", "c", "d"], "--crop: \"a,b,c,d\" is not a number"),
 ])
 def test_wrong_values_of_options_are_explained(extra, says, tmp_path):
     done = restage("render", CORNELL, "-o", tmp_path / "x.png", *extra)
@@ -429,10 +429,10 @@ def test_inputs_and_non_files_are_never_overwritten(tmp_path):
 
     before = files()
     for args, says in (
-            (["compare", "a.png", "b.exr", "--diff", "./a.png"], "would be written over a picture that is compared"),
+            (["compare", "a.png", "b.exr", "--diff", "./a.png"], "would overwrite one of the compared pictures"),
             (["compare", "a.exr", "b.exr", "--diff", "d.png", "--z-map", "d.png"], "d.png would be written twice"),
             (["compare", "a.exr", "--reference-halves", "b.exr", "./b.exr"], "b.exr twice: there would be no noise"),
-            (["compare", "a.exr", "b.exr", "--diff", "d.jpg"], "end its name with .png"),
+            (["compare", "a.exr", "b.exr", "--diff", "d.jpg"], "its name must end with .png"),
             (["compare", "a.png", "b.exr", "--diff", "d.png", "--z-map", "z.png"], "--z-map: no z-test"),
             (["convert", "a.exr", "./a.exr"], "is the input file"),
             (["convert", "a.exr", "x.png", "--strict"], "are for scenes"),

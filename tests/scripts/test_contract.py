@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plugin contract over time: a bundle built with the headers of a release works for ever, and structs may grow at
-their end on either side. Headers of a later day are today's with something appended to every struct."""
+"""The plugin contract over time: a bundle built with the headers of a release works forever, and structs may grow at
+their end on either side. Future headers are simulated by appending members to every struct."""
 import os
 import pathlib
 import re
@@ -22,7 +22,7 @@ def check(folder, *args):
 
 
 def grown(text):
-    """A header in which every struct that says its size has more at its end. Returns how many, too."""
+    """A header in which every struct with a size has additional members at its end. Also returns their number."""
     return re.subn(r"(typedef struct (\w+) \{[^}]*?    RESTAGE_SIZE\(\2\);.*?\n)(\} \2;)", r"\1    uint64_t grown[4];\n\3",
                    text, flags=re.S)
 
@@ -42,14 +42,14 @@ def built(folder, sources, include, *flags):
 
 @pytest.fixture(scope="module")
 def later(tmp_path_factory):
-    """The SDK of a later day."""
+    """A future SDK."""
     folder = tmp_path_factory.mktemp("later")
     count = 0
     for header in SDK.iterdir():
         (folder / "restage").mkdir(exist_ok=True)
         text, structs = grown(header.read_text())
         (folder / "restage" / header.name).write_text(text)
-        assert structs == header.read_text().count("    RESTAGE_SIZE("), header.name  # none is forgotten
+        assert structs == header.read_text().count("    RESTAGE_SIZE("), header.name  # all of them
         count += structs
     assert count > 25
     return folder
@@ -62,7 +62,7 @@ def test_a_bundle_of_0_2_works(tmp_path):
 
 
 def test_the_headers_of_0_2_are_todays_beginning():
-    """Until 0.2 is released they are the same: what changes is copied. Then this test goes, and the folder stays."""
+    """Until 0.2 is released they are identical: changes are copied. Then this test is removed, and the folder stays."""
     for header in (OLD / "restage").iterdir():
         assert header.read_text() == (SDK / header.name).read_text(), f"copy {header.name} to tests/plugins_old/0.2/restage"
 

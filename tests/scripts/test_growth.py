@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What ARCHITECTURE.md promises of "to add X, touch Y": a new layer of the film, tracer or kind of thing is named in
+"""The table "to add X, touch Y" of ARCHITECTURE.md: a new layer of the film, tracer or kind of thing is named in
 the documented places, and nowhere else."""
 import pathlib
 import re
@@ -12,7 +12,7 @@ LAYERS = (ROOT / "engine/render/film_layers.hpp").read_text()
 
 
 def naming(pattern, *folders):
-    """The files below the folders that hold the pattern."""
+    """The files below the folders that contain the pattern."""
     return {str(p.relative_to(ROOT)) for f in folders for p in (ROOT / f).rglob("*")
             if p.suffix in SOURCES and re.search(pattern, p.read_text())}
 
@@ -55,7 +55,7 @@ def test_a_kind_of_light_is_named_in_its_row_and_its_formula():
     kinds = re.findall(r"\{LightKind::(\w+),", (ROOT / "engine/scene/light_kinds.hpp").read_text())
     assert kinds[0] == "point" and len(kinds) >= 3
     row = "engine/scene/light_kinds.hpp"
-    for kind in kinds[1:]:  # the first is what a Light is by default
+    for kind in kinds[1:]:  # the first is the default of a Light
         assert naming(rf"LightKind::{kind}\b", "engine", "app", "python/src") == {row}
         assert naming(rf'"{kind}"', "engine", "app", "python/src") == {row}
         assert naming(rf"LAMP_{kind.upper()}\b", "engine", "shaders", "app") == {"shaders/shared/lamps.h"}
@@ -63,7 +63,7 @@ def test_a_kind_of_light_is_named_in_its_row_and_its_formula():
 def test_no_texture_type_is_named_by_the_engine():
     types = {p.name for p in (ROOT / "plugins/textures").iterdir()}
     assert {"imagemap", "checkerboard", "fbm"} <= types
-    for type in types - {"scale"}:  # the name of a field in files, too
+    for type in types - {"scale"}:  # also the name of a field in files
         assert naming(rf'"{type}"', "engine/plugin", "shaders") == set()
     for type in types - {"scale", "mix", "constant"}:
         assert naming(rf'"{type}"', "engine/render") == set()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The host process's state must not matter: a locale with decimal commas, and child processes started at
-any moment. Nor what a shader compiler may assume: that there is no NaN, unless its bits are tested."""
+any time. Nor may the assumptions of shader compilers, which may exclude NaN unless its bits are tested."""
 
 import pathlib
 import re

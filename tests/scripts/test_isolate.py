@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""--isolate: scenes are read in a process of their own. Their contents are the same; failures there become messages."""
+"""--isolate: scenes are read in a separate process, with the same contents; failures there become messages."""
 
 import json
 import os
@@ -63,7 +63,7 @@ def test_a_misbehaving_importer_ends_only_itself(tmp_path, case, limits, said):
     done = run("--plugin-path", tmp_path / "plugins", "--isolate", *limits, "info", scene, env=env)
     assert done.returncode == 1, done
     assert said in done.stderr and "nothing was imported" in done.stderr
-    if case == "importer_crashes":  # and is remembered from now on
+    if case == "importer_crashes":  # and is stored from now on
         listed = run("--plugin-path", tmp_path / "plugins", "plugins", env=env).stdout
         assert f"it crashed (SIGABRT) while it read {scene}" in listed
 
@@ -113,13 +113,13 @@ def test_options_of_the_importer_reach_the_child(tmp_path):
     assert same.returncode == 0, same.stdout
     other = run("compare", tmp_path / "plain/scene.pbrt", model)
     assert other.returncode == 1, "the options made no difference"
-    # What it does not have is refused in the same words, and so is what is no assignment.
-    for wrong, says in (("height=2", 'importer "obj": there is no option "height"; there are: units='), ("merge", "write name=value"),
+    # Unknown options and malformed assignments are refused with the same messages.
+    for wrong, says in (("height=2", 'importer "obj": there is no option "height"; known: units='), ("merge", "write name=value"),
                         ("up=x", "as_is|y|z are possible"), ("merge=maybe", '"maybe" is neither true nor false')):
         plain, isolated = (run(*first, "info", model, "--import-set", wrong) for first in ([], ["--isolate"]))
         assert plain.returncode == isolated.returncode == 1 and says in plain.stderr, plain.stderr
         assert plain.stderr == isolated.stderr
-    # A project is read with the options that it names, and with others if asked.
+    # A project is read with its own options, or with others on request.
     base = {"file": "t.obj", "format": "obj", "hash": "0", "options": {"merge": True}}
     project.write_text(json.dumps({"restage": 1, "base": base}))
     for first in ([], ["--isolate"]):

@@ -12,7 +12,7 @@ SOURCES = {".cpp", ".hpp", ".c", ".h"}
 
 
 def declared(module):
-    """The modules that engine/<module>/CMakeLists.txt names in DEPENDS."""
+    """The modules in DEPENDS of engine/<module>/CMakeLists.txt."""
     text = (ENGINE / module / "CMakeLists.txt").read_text()
     found = re.search(r"DEPENDS([a-z\s]*)", text)
     return found.group(1).split() if found else []
@@ -48,7 +48,7 @@ def test_dependencies_are_those_of_the_design():
 
 
 def test_the_sdk_is_included_by_the_adapters_alone():
-    """The engine has a model of its own; a revision of an interface touches one adapter in plugin/ or io/."""
+    """The engine has its own model; a revision of an interface affects one adapter in plugin/ or io/."""
     wrong = [f"{path}:{line}: includes {name}" for folder in (*(ENGINE / m for m in MODULES), ROOT / "app", ROOT / "python")
              for path, line, name in includes(folder)
              if name.startswith("restage/") and name.endswith(".h") and folder.name not in ("plugin", "io")]
@@ -91,7 +91,7 @@ def test_the_engine_names_no_concrete_plugin():
     assert not wrong, "\n".join(wrong)
 
 
-# The levels of app/editor/contexts.hpp, and what each adds: a file that names one uses something of it, or calls
+# The levels of app/editor/contexts.hpp, and the members of each: a file that takes one uses a member of it, or calls
 # something that takes it.
 LEVELS = {
     "PanelUi": "notices preferences panel_state files options log mark",
@@ -99,7 +99,7 @@ LEVELS = {
     "EditContext": "edit later change end_gesture run action_state open insert show_modal",
     "SelectContext": "selection hovered locked pick_tool material_clipboard copied views camera",
 }
-# Panels over the whole: the picture itself. Others may only hand it to a callback: std::function<void(PanelContext&)>.
+# Panels that need the picture itself. Others may only pass it to a callback: std::function<void(PanelContext&)>.
 WHOLE = {"panels.cpp", "panels.hpp", "assets_panel.cpp"}
 
 

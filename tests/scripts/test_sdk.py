@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The SDK from a third party's view: Restage is installed, plugins are written by `restage new-plugin`, built outside of the
-tree against what was installed, checked and rendered. And a crashing plugin does the program little harm."""
+tree against the installation, checked and rendered. And a crashing plugin does the program little harm."""
 
 import json
 import os
@@ -69,7 +69,7 @@ def test_plugins_from_the_templates(installed, tmp_path):
 
 
 def test_textures_from_the_templates(installed, tmp_path):
-    """JSON and C: each loads, passes the checker, with its native code if it has some, and renders the same scene."""
+    """JSON and C: each loads, passes the checker, with its native code if any, and renders the same scene."""
     restage = installed / "bin" / "restage"
     pictures = {}
     for language in ("json", "c"):
@@ -119,7 +119,7 @@ def test_new_plugin_refuses(installed, tmp_path):
 
 
 def test_the_tutorial(installed, tmp_path):
-    """docs/plugins.md, literally: types what the page says, and checks that it happens."""
+    """docs/plugins.md, literally: performs the steps of the page, and checks their results."""
     restage = installed / "bin" / "restage"
     text = (SOURCE / "docs" / "plugins.md").read_text()
     text, _, kinds = text.partition("\n## The other kinds\n")
@@ -175,7 +175,7 @@ def section(heading):
 
 
 def made(installed, tmp_path, heading):
-    """The plugin of a tutorial as it is written at first, built and checked."""
+    """The initial plugin of a tutorial, built and checked."""
     make, blocks = section(heading)
     run(installed / "bin" / "restage", *make, cwd=tmp_path)
     folder, kind = tmp_path / make[1], make[make.index("--kind") + 1]
@@ -286,7 +286,7 @@ def test_a_plugin_that_crashed_is_left_out_and_named(crashing):
         p for p in json.loads(run(RESTAGE, "plugins", "--json", env=crashing).stdout) if p["id"] == "org.example.velvet"
     )
     assert entry["quarantined"] and not entry["loaded"]
-    # Everything else works.
+    # Everything else still works.
     run(RESTAGE, "-q", "info", SOURCE / "scenes" / "demo" / "demo.pbrt", env=crashing)
     run(RESTAGE, "plugins", "--enable", "org.example.velvet", env=crashing)
     assert run(RESTAGE, "plugins", ok=False, env=crashing).returncode == -6

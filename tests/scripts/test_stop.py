@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a command ends with: done, failed, not understood, stopped. Stopped is told from failed wherever it happens: while
-a file is read, in this process or in one of its own, and while a picture is denoised."""
+"""Exit codes of commands: done, failed, invalid, stopped. Stopped is distinguished from failed everywhere: while a file is
+read, in this process or a separate one, and while a picture is denoised."""
 import json
 import os
 import pathlib
@@ -23,7 +23,7 @@ def restage(*args, **more):
 
 
 def plugin_that_waits(folder, kind):
-    """One that says, by a file, that it runs, and goes on until progress() says stop."""
+    """A plugin that signals by a file that it is running, and continues until progress() returns 0."""
     folder.mkdir(parents=True)
     shutil.copy(BROKEN / f"{kind}_waits.so", folder / "broken.so")
     (folder / "plugin.json").write_text(json.dumps({
@@ -34,7 +34,7 @@ def plugin_that_waits(folder, kind):
 
 
 def stopped(command, mark, name=signal.SIGINT, **environment):
-    """What the command ends with when it is stopped while the plugin runs."""
+    """The exit code of a command that is stopped while the plugin runs."""
     process = subprocess.Popen([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                env={**os.environ, **environment, "RESTAGE_TEST_MARK": str(mark)}, start_new_session=True)
     try:
@@ -61,15 +61,15 @@ def test_denoising_is_stopped(tmp_path):
     code, out, err = stopped([RESTAGE, "--plugin-path", tmp_path, "render", CORNELL, "-o", tmp_path / "x.png", "--size", "16x16",
                               "--spp", 1, "--denoiser", "copy"], tmp_path / "mark")
     assert code == 128 + signal.SIGINT, (code, err)
-    assert (tmp_path / "x.png").exists() and "denoising was stopped: the picture is written as it was rendered" in err
+    assert (tmp_path / "x.png").exists() and "denoising was stopped: the picture is written without it" in err
 
 
 def test_ctrl_c_stops_denoising_in_python(tmp_path):
-    """As Ctrl-C does everywhere in Python; the picture is still there, as it was rendered. (restage.Cancelled is what a
-    callback's False raises: tests/python/test_editing.py.)"""
+    """As Ctrl-C everywhere in Python; the picture remains, not denoised. (A callback's False raises restage.Cancelled:
+    tests/python/test_editing.py.)"""
     package = RESTAGE.parent.parent / "lib/python"
     if not (package / "restage").is_dir():
-        pytest.skip("the package restage is not beside the program")
+        pytest.skip("the package restage is not next to the program")
     script = f"""
 import sys
 sys.path.insert(0, {str(package)!r})
@@ -86,7 +86,7 @@ with restage.open({str(CORNELL)!r}) as session:
     assert code == 0 and out.strip() == "stopped None", (out, err)
 
 
-# Exit codes are said in README.md and at the end of `restage --help`.
+# Exit codes are documented in README.md and at the end of `restage --help`.
 DONE = [["info", CORNELL], ["plugins"], ["compare", CORNELL, CORNELL], ["convert", CORNELL, "out.pbrt"],
         ["check", "diffuse", "--only", "manifest"], ["new-plugin", "velours"], ["--help"], ["--version"],
         ["render", CORNELL, "-o", "a.png", "--size", "8x8", "--spp", "1"]]
@@ -107,5 +107,5 @@ def test_exit_codes(code, args, tmp_path):
 
 def test_exit_codes_are_said_where_they_are_looked_for():
     said = restage("--help").stdout
-    for words in ("0 done", "1 failed", "2 command line not understood", "128 + N stopped by signal N"):
+    for words in ("0 done", "1 failed", "2 invalid command line", "128 + N stopped by signal N"):
         assert words in said and words in (ROOT / "README.md").read_text()

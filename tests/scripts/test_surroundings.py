@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Folders that a user may lack: a temporary folder that forbids execution or is missing, an unwritable cache, no home. The
-program works without them, and reports each loss in one line. A file in a folder's place stops root as well."""
+"""Missing or restricted folders: a temporary folder that forbids execution or is missing, an unwritable cache, no home. The
+program works without them, and reports each loss in one line. A file in place of a folder stops root as well."""
 
 import os
 import pathlib
@@ -52,7 +52,7 @@ def test_rendering_without_home_and_cache(tmp_path):
 
 
 def test_rendering_with_a_cache_and_a_data_folder_that_cannot_be_made(tmp_path, blocked):
-    # The driver's own cache stays: without it this takes a minute.
+    # Keep the driver's own cache: without it this takes a minute.
     usual = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "restage" / "mesa"
     kept = os.environ.get("MESA_SHADER_CACHE_DIR", str(usual if usual.is_dir() else tmp_path))
     done = render(tmp_path, env={"XDG_CACHE_HOME": blocked, "XDG_DATA_HOME": blocked, "MESA_SHADER_CACHE_DIR": kept})
@@ -76,7 +76,7 @@ def test_crashes_are_not_remembered_and_one_line_says_so(tmp_path, blocked):
 def test_a_temporary_folder_that_forbids_execution(tmp_path):
     mount = f'mount -t tmpfs -o noexec none "{tmp_path}" && exec "$@"'
     if not shutil.which("unshare") or subprocess.run(["unshare", "-m", "sh", "-c", mount, "sh", "true"], capture_output=True).returncode:
-        pytest.skip("this user cannot mount a folder of its own")
+        pytest.skip("this user cannot mount a folder")
     done = run("plugins", env={"TMPDIR": str(tmp_path)}, before=("unshare", "-m", "sh", "-c", mount, "sh"))
     assert "REFUSED" not in done.stdout and "material diffuse" in done.stdout, done.stdout
     assert "warning" not in done.stderr, done.stderr

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choices by picture or number: balls of materials, skies, the steps of drags; and where dialogs are.
+// Choices by picture or number: balls of materials, skies, the steps of drags; and the positions of dialogs.
 #include "headless.hpp"
 #include "render/renderer.hpp"
 
@@ -27,7 +27,7 @@ void write_pfm(const std::filesystem::path& file, int width, int height) {
 
 struct Look {
     glm::dvec3 mean{0}, spread{0}; // of the colours that a screen shows, 0..1
-    double white = 0; // the share of pixels
+    double white = 0; // the fraction of pixels
 };
 
 // Of the ball's inner part.
@@ -72,10 +72,10 @@ TEST_CASE("balls show the material: a texture is not black, a metal neither whit
         REQUIRE((*renderer)->trace(16));
         const Look look = look_of((*renderer)->image());
         CHECK((look.mean.y > 0.15 && look.mean.y < 0.9 && look.white < 0.5));
-        CHECK(look.spread.y > 0.02); // it is round
+        CHECK(look.spread.y > 0.02); // it is a disk
         return look;
     };
-    CHECK(ball("Ground").spread.y > 1.5 * ball("Clay").spread.y); // its tiles are seen
+    CHECK(ball("Ground").spread.y > 1.5 * ball("Clay").spread.y); // its tiles are visible
     const Look copper = ball("Brushed copper"), silver = ball("Silver mirror");
     CHECK(copper.mean.x > 1.2 * copper.mean.z);
     CHECK(std::abs(silver.mean.x - silver.mean.z) < 0.1);
@@ -91,7 +91,7 @@ TEST_CASE("a sky is chosen by its thumbnail, and surface maps are not listed", "
     std::ofstream(folder.path() / "assets.json") << R"({"folders": ["."]})";
     Headless h("demo/demo.pbrt", 1, {1500, 1000}, folder.path());
     h.play("sky", [&](ImGuiTestContext* ctx) {
-        h.focus(ctx, "Log"); // the assets are known, whether their panel was shown or not
+        h.focus(ctx, "Log"); // the assets are known even if their panel was never shown
         h.editor().panel_state->assets.loaded = false;
         h.editor().panel_state->assets.entries.clear();
         h.focus(ctx, "Scene");
@@ -157,12 +157,12 @@ TEST_CASE("the note at the picture's corner describes the shown picture", "[ui]"
     shown.image.height = 90;
     shown.image.samples = 2;
     shown.relative_error = 0.125;
-    CHECK(editor::picture_note(shown, "", false) == "160 × 90, 2 samples a pixel, error 12.5 %, denoised");
+    CHECK(editor::picture_note(shown, "", false) == "160 × 90, 2 samples per pixel, error 12.5 %, denoised");
     CHECK(editor::picture_note(shown, "velvet", false)
-              .ends_with("velvet is being compiled; until then it is shown plain"));
+              .ends_with("velvet is being compiled; until then it is shown simplified"));
 }
 
-TEST_CASE("a dialog is in the middle of the window, and comes back to it when the window has another size", "[ui]") {
+TEST_CASE("a dialog is in the middle of the window, and returns there when the window is resized", "[ui]") {
     Headless h("cornell/cornell.pbrt");
     h.play("dialog", [&](ImGuiTestContext* ctx) {
         h.editor().show_modal("A question", [](editor::PanelContext&) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chords that end in the frame in which their last key goes down.
+// Chords that end in the frame in which their last key is pressed.
 #include "editor/chords.hpp"
 
 #include <imgui.h>
@@ -9,7 +9,7 @@
 
 using namespace restage::editor;
 
-TEST_CASE("A chord whose modifier goes up within the same frame is one, and what follows it is typed") {
+TEST_CASE("A chord whose modifier is released within the same frame is recognized, and later keys are typed") {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fixtures of the tests that use the editor as a user does."""
+"""Fixtures of the tests that use the editor like a user."""
 import os
 import pathlib
 
@@ -26,7 +26,7 @@ def desk(tmp_path_factory):
 
 @pytest.fixture
 def launch(desk, binary, tmp_path):
-    """launch(*arguments) starts an editor with its own settings folder; it ends with the test."""
+    """launch(*arguments) starts an editor with its own configuration folder; it ends with the test."""
     running = []
 
     def start(*arguments, config=None, **more):

@@ -10,7 +10,7 @@ using namespace restage::editor;
 
 namespace {
 
-// Dear ImGui without a backend, a frame at a time.
+// Dear ImGui without a backend, one frame at a time.
 class Frames {
   public:
     Frames() {
@@ -54,7 +54,7 @@ bool nothing(const ImRect& rect) { return rect.Min.x >= rect.Max.x || rect.Min.y
 
 } // namespace
 
-TEST_CASE("damage: all of the first frame, nothing of an identical next one") {
+TEST_CASE("damage: all of the first frame, nothing of an identical second one") {
     Frames frames;
     const ImRect all = frames.text("0");
     CHECK((all.Min.x == 0 && all.Min.y == 0 && all.Max.x == 400 && all.Max.y == 300));

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A desk for the editor: an X server without a screen, real mouse and key events (xdotool), screenshots, and the editor's
-own account of its state (`restage edit --probe FILE`). Coordinates are screen pixels; the window is at (0, 0)."""
+reported state (`restage edit --probe FILE`). Coordinates are screen pixels; the window is at (0, 0)."""
 import json
 import os
 import pathlib
@@ -16,7 +16,7 @@ class Timeout(AssertionError):
 
 
 class Desk:
-    """An Xvfb of its own, with a frame buffer in a file."""
+    """A private Xvfb, with its frame buffer in a file."""
 
     def __init__(self, folder, size=(1280, 720)):
         self.folder = pathlib.Path(folder)
@@ -39,7 +39,7 @@ class Desk:
         subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, timeout=30)
 
     def resize(self, title, size):
-        """The window whose title has this in it."""
+        """The window whose title contains this."""
         found = subprocess.run(["xdotool", "search", "--name", title], env=self.environment, check=True, capture_output=True, text=True)
         self.xdotool("windowsize", found.stdout.split()[-1], *size)
 
@@ -70,7 +70,7 @@ class Editor:
              *map(str, arguments)], env={**desk.environment, **(environment or {})}, stdout=self.log, stderr=self.log)
         self.wait(lambda s: True, "the editor to start", 60)
 
-    # --- the editor's own state ---
+    # --- the editor's state ---
     def state(self):
         for _ in range(100):
             try:
@@ -95,7 +95,7 @@ class Editor:
                 if condition(state):
                     return state
             time.sleep(0.05)
-        raise Timeout(f"waited {seconds} s for {what}; the editor says {json.dumps(self.short_state())}\n{self.output()}")
+        raise Timeout(f"waited {seconds} s for {what}; the editor's state is {json.dumps(self.short_state())}\n{self.output()}")
 
     def short_state(self):
         state = self.state()
@@ -111,7 +111,7 @@ class Editor:
 
     # --- hands ---
     def point(self, where):
-        """A mark's middle; ("picture", u, v); or (x, y)."""
+        """A mark's centre; ("picture", u, v); or (x, y)."""
         if isinstance(where, str):
             def there(s):  # dialogs are above the window until they know their size
                 return where in s["marks"] and not (s["modal"] and s["marks"][where][1] < 0)
@@ -178,7 +178,7 @@ class Editor:
 
     # --- eyes ---
     def picture(self):
-        """What the viewport shows, without its frame; float, 0..1. The screen may be a frame behind the state."""
+        """The content of the viewport, without its frame; float, 0..1. The screen may be a frame behind the state."""
         drawn = self.state()["latency"]["nframes"]
         self.wait(lambda s: s["latency"]["nframes"] >= drawn + 2, "two more frames")
         x0, y0, x1, y1 = (int(v) for v in self.state()["marks"]["picture"])

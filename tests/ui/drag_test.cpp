@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One rule for every way of dragging what is selected: by its handles, by the knob between them, by itself.
+// The same rules for every way of dragging the selection: by its handles, by the knob between them, directly.
 #include "headless.hpp"
 
 #include <functional>
@@ -26,7 +26,7 @@ void play(ImGuiTestContext* ctx, Headless& h, const Drag& drag) {
     for (int i = 1; i <= 5; ++i)
         ctx->MouseMoveToPos({from.x + drag.by.x * float(i) / 5, from.y + drag.by.y * float(i) / 5});
     if (drag.end == Drag::End::escape) ctx->KeyPress(ImGuiKey_Escape);
-    if (drag.end == Drag::End::right_click) { // MouseClick() wants all buttons up
+    if (drag.end == Drag::End::right_click) { // MouseClick() requires all buttons up
         ctx->MouseDown(ImGuiMouseButton_Right);
         ctx->MouseUp(ImGuiMouseButton_Right);
     }
@@ -38,7 +38,7 @@ void play(ImGuiTestContext* ctx, Headless& h, const Drag& drag) {
 
 } // namespace
 
-TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancelled, however it is started", "[ui]") {
+TEST_CASE("a drag stays on the floor, copies, moves in steps, lifts and is cancelled, however it is started", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.select("Chair frame");
     const auto id = h.editor().selection.active();
@@ -108,7 +108,7 @@ TEST_CASE("a drag keeps to the floor, copies, goes in steps, lifts and is cancel
     });
 }
 
-TEST_CASE("a turn and a stretch copy with Shift, and are cancelled", "[ui]") {
+TEST_CASE("rotating and scaling copy with Shift, and are cancelled", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.select("Chair frame");
     const auto id = h.editor().selection.active();
@@ -130,7 +130,7 @@ TEST_CASE("a turn and a stretch copy with Shift, and are cancelled", "[ui]") {
     });
 }
 
-TEST_CASE("a light is dragged as an object is", "[ui]") {
+TEST_CASE("a light is dragged like an object", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.play("light", [&](ImGuiTestContext* ctx) {
         h.focus(ctx, "Scene");

@@ -33,7 +33,7 @@ void run(Headless& h, ImGuiTestContext* ctx, const char* action) {
     ctx->Yield(3);
 }
 
-// For work that a thread does first, no matter how long on a busy machine.
+// Waits for work on a thread, however long it takes on a busy machine.
 void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (!there() && std::chrono::steady_clock::now() < limit) {
@@ -133,7 +133,8 @@ TEST_CASE("objects and lights are copied within a window and into another one", 
             run(h, ctx, "edit.copy");
             held = ImGui::GetClipboardText();
             run(h, ctx, "edit.paste");
-            IM_CHECK(h.scene().instances.live() == objects + 1 && h.scene().meshes.live() == meshes); // it shares them
+            IM_CHECK(h.scene().instances.live() == objects + 1 &&
+                     h.scene().meshes.live() == meshes); // shared with the original
             const LightId id = add_light(h, ctx, "lights.add_spot");
             run(h, ctx, "edit.copy");
             run(h, ctx, "edit.paste");
@@ -154,7 +155,7 @@ TEST_CASE("objects and lights are copied within a window and into another one", 
     });
 }
 
-TEST_CASE("the outliner's rows are gone through with arrows, and fit beside their eyes", "[ui]") {
+TEST_CASE("arrows move through the outliner's rows, and names fit next to their eyes", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.play("arrows", [&](ImGuiTestContext* ctx) {
         h.focus(ctx, "Outliner");
@@ -187,7 +188,7 @@ TEST_CASE("the outliner's rows are gone through with arrows, and fit beside thei
     });
 }
 
-TEST_CASE("menus name the step to undo, the first group is Group, keys show their signs", "[ui]") {
+TEST_CASE("menus name the step to undo, the first group is called Group, keys show their characters", "[ui]") {
     Headless h("cornell/cornell.pbrt");
     h.play("labels", [&](ImGuiTestContext* ctx) {
         const editor::Action& undo = *editor::find_action("edit.undo");
@@ -211,7 +212,7 @@ TEST_CASE("menus name the step to undo, the first group is Group, keys show thei
         for (int i = 0; i < 4; ++i)
             run(h, ctx, "edit.duplicate");
         IM_CHECK(h.step() == 5);
-        // Of one frame; each counts.
+        // In one frame; each counts.
         const std::vector<ImGuiKeyChord> keys{ImGuiMod_Ctrl | ImGuiKey_Z, ImGuiMod_Ctrl | ImGuiKey_Z,
                                               ImGuiMod_Ctrl | ImGuiKey_Y, ImGuiMod_Ctrl | ImGuiKey_Z};
         editor::run_shortcuts(h.editor(), &keys);
@@ -248,14 +249,14 @@ TEST_CASE("a dropped image asks whether to change one object or all that share t
     });
 }
 
-TEST_CASE("the layout is reset, and leaves a small window its picture", "[ui]") {
+TEST_CASE("the layout is reset, and keeps room for the picture in a small window", "[ui]") {
     Headless h("cornell/cornell.pbrt", 1, {1000, 600});
     h.play("layout", [&](ImGuiTestContext* ctx) {
         ctx->Yield(3);
         const auto wide = [] { return ImGui::FindWindowByName("Viewport")->Size.x; };
         const float first = wide();
         IM_CHECK(first >= 450);
-        for (const char* panel : {"Inspector", "Scene", "Outliner"}) // all that is at the right
+        for (const char* panel : {"Inspector", "Scene", "Outliner"}) // everything at the right
             h.editor().open_panel(panel, false);
         ctx->Yield(3);
         IM_CHECK(wide() > first);
@@ -282,7 +283,7 @@ TEST_CASE("missing glyphs are reported, and fonts' character maps are read", "[u
     CHECK(std::ranges::find(found.missing, "Korean") == found.missing.end());
     CHECK(std::ranges::find(found.missing, "Japanese") != found.missing.end());
 
-    // Where the system keeps them; of several that have it, the plain one for many scripts.
+    // In the system's folders; of several with the script, the regular one for many scripts.
     const auto system = folder.path() / "fonts/truetype";
     std::filesystem::create_directories(system);
     for (const char* name : {"AnyMincho-Bold.otf", "PlainSansCJK-Bold.otf", "PlainSansCJK-Regular.otf"})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The editor without a window or a GPU of its own: Dear ImGui with a backend that draws nothing, a mouse moved by Dear
-// ImGui Test Engine, and a live picture of a few pixels. Widgets are named by the marks that panels give them.
+// The editor without a window or its own GPU: Dear ImGui with a backend that draws nothing, a mouse moved by Dear
+// ImGui Test Engine, and a live picture of a few pixels. Widgets are identified by the marks that panels give them.
 #pragma once
 
 #include "document/session.hpp"
@@ -28,8 +28,8 @@ namespace restage::tests {
 
 class Headless {
   public:
-    // `config`: where preferences and the list of assets are; none = nothing is remembered. `more`: a folder of plugins
-    // beside those of the build.
+    // `config`: folder of preferences and the list of assets; none = nothing is stored. `more`: a folder of plugins
+    // in addition to those of the build.
     explicit Headless(const std::string& scene, float scale = 1, ImVec2 size = {1500, 1000},
                       const std::filesystem::path& config = {}, const std::filesystem::path& more = {}) {
         std::vector<plugin::SearchPath> plugins{{restage::test::build_dir() / "lib/restage/plugins", true}};
@@ -111,7 +111,7 @@ class Headless {
         }
         return {found.x0, found.y0, found.x1, found.y1};
     }
-    // The same, for widgets that come with the first picture: no matter how long on a busy machine.
+    // Likewise for widgets that appear with the first picture, however long that takes on a busy machine.
     void wait_for(ImGuiTestContext* ctx, const std::string& mark) {
         const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
         while (!editor_->find_mark(mark) && std::chrono::steady_clock::now() < limit) {
@@ -124,7 +124,7 @@ class Headless {
         ctx->Yield(2);
         return editor_->find_mark(mark) != nullptr;
     }
-    // Left of its middle, where fields of several numbers have their first one.
+    // Left of its centre, where fields of several numbers have their first one.
     void click(ImGuiTestContext* ctx, const std::string& mark, int button = 0) {
         const ImVec4 r = find(ctx, mark);
         ctx->MouseMoveToPos({r.x + std::min(12.f, (r.z - r.x) / 2), (r.y + r.w) / 2});
@@ -137,7 +137,7 @@ class Headless {
         ctx->MouseDoubleClick();
         ctx->Yield(2);
     }
-    // Across the widget from a quarter of its width: changes sliders and drags alike.
+    // Across the widget from a quarter of its width: works for sliders and drags.
     void drag(ImGuiTestContext* ctx, const std::string& mark, float pixels = 25) {
         const ImVec4 r = find(ctx, mark);
         ctx->MouseMoveToPos({r.x + (r.z - r.x) * 0.25f, (r.y + r.w) / 2});
@@ -147,7 +147,7 @@ class Headless {
         ctx->MouseUp();
         ctx->Yield(2);
     }
-    // All words of one frame, in the order they are drawn.
+    // All text of one frame, in drawing order.
     std::string words(ImGuiTestContext* ctx) {
         wanted_words_ = true;
         while (wanted_words_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The History panel: what it says of its size, where the saved state is when old steps are gone, and its memory limit.
+// The History panel: its reported size, the saved state after old steps were dropped, and its memory limit.
 #include "headless.hpp"
 
 #include "editor/preferences.hpp"
@@ -10,7 +10,7 @@ using tests::Headless;
 
 namespace {
 
-// As many steps, each of which renames the camera.
+// This number of steps, each renaming the camera.
 void add_steps(Headless& h, int count) {
     auto& session = h.editor().session_for_changes();
     for (int i = 0; i < count; ++i) {
@@ -23,7 +23,7 @@ void add_steps(Headless& h, int count) {
 
 bool says(const std::string& words, const char* what) { return words.find(what) != std::string::npos; }
 
-// The row that the word "saved" stands in; -1 = none.
+// The row that contains the word "saved"; -1 = none.
 int saved_row(Headless& h) {
     const auto* saved = h.editor().find_mark("history.saved");
     for (std::size_t i = 0; saved && i <= h.editor().session().history().size(); ++i)
@@ -55,18 +55,18 @@ TEST_CASE("the history names its oldest state and the saved one, also when steps
         h.click(ctx, "history.6");
         IM_CHECK(h.step() == 6);
 
-        // Enough for two steps: the saved state is the oldest that is left.
+        // Enough for two steps: the saved state is the oldest remaining one.
         session.set_history_budget(session.history().bytes() * 2 / 6 + 1);
         words = h.words(ctx);
         IM_CHECK(session.history().size() == 2 && session.history().dropped() == 4);
-        IM_CHECK(says(words, "The oldest state that is kept") && !says(words, "Opened"));
+        IM_CHECK(says(words, "The oldest remaining state") && !says(words, "Opened"));
         IM_CHECK(says(words, "2 steps, ") && says(words, "4 older steps were dropped"));
         IM_CHECK(saved_row(h) == 0);
         h.click(ctx, "history.0");
         IM_CHECK(h.step() == 0 && !session.modified());
         h.click(ctx, "history.2");
 
-        session.set_history_budget(1); // the newest alone: the saved state is gone
+        session.set_history_budget(1); // only the newest: the saved state was dropped
         words = h.words(ctx);
         IM_CHECK(says(words, "5 older steps were dropped") && saved_row(h) == -1);
         h.click(ctx, "history.0");
@@ -78,7 +78,7 @@ TEST_CASE("the history names its oldest state and the saved one, also when steps
     });
 }
 
-TEST_CASE("the memory limit of the history is typed, used and remembered", "[ui]") {
+TEST_CASE("the memory limit of the history is entered, applied and stored", "[ui]") {
     const test::TemporaryFolder config;
     constexpr std::size_t mib = 1 << 20;
     {
@@ -90,7 +90,7 @@ TEST_CASE("the memory limit of the history is typed, used and remembered", "[ui]
             h.double_click(ctx, "history.budget");
             ctx->KeyCharsReplace("64");
             ctx->Yield(2);
-            IM_CHECK(budget() == 512); // not by each digit: 6 MiB would drop steps
+            IM_CHECK(budget() == 512); // not after each digit: 6 MiB would drop steps
             ctx->KeyPress(ImGuiKey_Tab);
             ctx->Yield(3);
             IM_CHECK(budget() == 64 && h.editor().preferences.history_mib == 64);

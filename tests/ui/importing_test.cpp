@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of importers in the editor: chosen in the file browser by mouse and keys, remembered per format, kept when
-// the file is read again, and changed from the import report.
+// Options of importers in the editor: chosen in the file browser by mouse and keys, kept per format and when
+// the file is reread, and changed from the import report.
 #include "headless.hpp"
 
 #include "io/options.hpp"
@@ -60,7 +60,7 @@ void opened(Headless& h, ImGuiTestContext* ctx, const std::function<void()>& how
 
 } // namespace
 
-TEST_CASE("a file's options are chosen where it is opened and inserted", "[ui]") {
+TEST_CASE("a file's options are chosen when it is opened or inserted", "[ui]") {
     const Files files;
     const std::string file = files.write("t.obj"), other = files.write("other.obj");
     Headless h("cornell/cornell.pbrt");
@@ -91,7 +91,7 @@ TEST_CASE("a file's options are chosen where it is opened and inserted", "[ui]")
         IM_CHECK(h.scene().instances.live() == 1);
         IM_CHECK(std::abs(scene::world_bounds(h.scene()).size().z - 0.03) < 1e-9);
 
-        // Another file of the format finds them as they were left, and a file that is read again has its own.
+        // Another file of the format starts with the last ones, and a reread file keeps its own.
         type_file(h, ctx, "file.insert", other);
         h.click(ctx, "import.obj.merge"); // off again
         h.click(ctx, "browser.accept");
@@ -109,7 +109,7 @@ TEST_CASE("a file's options are chosen where it is opened and inserted", "[ui]")
     });
 }
 
-TEST_CASE("a scene is read again with other options, from the import report", "[ui]") {
+TEST_CASE("a scene is reread with other options from the import report", "[ui]") {
     const Files files;
     Headless h("cornell/cornell.pbrt");
     h.play("again", [&](ImGuiTestContext* ctx) {
@@ -132,7 +132,7 @@ TEST_CASE("a scene is read again with other options, from the import report", "[
         IM_CHECK(h.scene().instances.live() == 1 && !h.editor().session().modified());
         IM_CHECK(h.words(ctx).find("Read with merge=true") != std::string::npos);
 
-        // Of a project: its changes stay, and it says that it is not what was saved.
+        // For a project: its changes are kept, and it counts as modified.
         const std::string project = (files.folder.path() / "p.restage").string();
         IM_CHECK(h.editor().session_for_changes().save_project(project));
         h.click(ctx, "report.import_again");
@@ -153,7 +153,7 @@ TEST_CASE("a scene is read again with other options, from the import report", "[
     });
 }
 
-TEST_CASE("the name of a scene is not taken over from one file to the next", "[ui]") {
+TEST_CASE("the name of a scene is not carried over to another file", "[ui]") {
     const Files files;
     const std::string day = files.write("day.gltf"), night = files.write("night.gltf");
     Headless h("cornell/cornell.pbrt");

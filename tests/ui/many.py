@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run by hand: how the editor behaves with many objects. Makes a scene of N boxes (pbrt ObjectInstances) and measures, with real
+"""Run manually: the editor's behaviour with many objects. Makes a scene of N boxes (pbrt ObjectInstances) and measures, with real
 keys and clicks: the window's frames, and how long selecting all, hiding, undo, copying, moving and searching take.
 
     build/venv/bin/python tests/ui/many.py RESTAGE [N]"""

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening another scene: from the first frame with its outliner on, nothing of the previous picture is visible.
+// Opening another scene: from the first frame that shows its outliner, nothing of the previous picture is visible.
 #include "headless.hpp"
 
 using namespace restage;
@@ -20,7 +20,7 @@ TEST_CASE("editor: an opened scene never shows the previous one") {
         const auto document = e.document(), request = e.viewport.shown_request();
         e.open(restage::test::source_dir() / "scenes/demo/demo.pbrt");
         wait([&] { return e.document() != document; });
-        // This very frame, and every one after it.
+        // This frame and every later one.
         bool old = false;
         wait([&] {
             old |= e.viewport.shown_request() > 0 && e.viewport.shown_request() <= request;

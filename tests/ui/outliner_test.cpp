@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outliner's list of rows: whatever is edited, it is the list of a scene seen for the first time; edits that change
-// no row list nothing again.
+// The outliner's list of rows: after any edit it equals a newly built list; edits that do not affect rows rebuild
+// nothing.
 #include "editor/panels/outliner.hpp"
 #include "editor/panels/state.hpp"
 #include "scene/edits.hpp"
@@ -58,7 +58,7 @@ struct Forest {
     }
 };
 
-// As if the panel saw the scene for the first time.
+// A newly built list.
 void check_like_new(const Scene& scene, const OutlinerState& now) {
     OutlinerState fresh;
     fresh.search = now.search, fresh.material = now.material, fresh.open = now.open;
@@ -73,7 +73,7 @@ void check_like_new(const Scene& scene, const OutlinerState& now) {
 
 } // namespace
 
-TEST_CASE("the outliner's list is that of a new one after any edit", "[ui]") {
+TEST_CASE("after any edit the outliner's list equals a newly built one", "[ui]") {
     Forest f(400);
     OutlinerState state;
     std::mt19937 random(7);
@@ -153,7 +153,7 @@ TEST_CASE("moving an object, a light or the camera lists no object again", "[ui]
     }
 }
 
-TEST_CASE("what the outliner's list costs", "[.][measure]") {
+TEST_CASE("cost of the outliner's list", "[.][measure]") {
     Forest f(20000);
     for (const char* search : {"", "tree number 7"}) {
         OutlinerState state;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every panel and every kind of widget: what a drag or a click changes, that it is one step of the history, and that
-// undo restores the previous state.
+// Every panel and every kind of widget: the changes by a drag or a click, that they are one undo step, and that undo
+// restores the previous state.
 #include "headless.hpp"
 
 #include "editor/panels/panels.hpp"
@@ -149,7 +149,7 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         h.click(ctx, "lights.Spot light");
         h.focus(ctx, "Inspector");
         drags_are_steps(h, ctx, {"light.strength", "light.position", "light.azimuth", "light.cone"});
-        drags_are_steps(h, ctx, {"light.elevation"}, -25); // it shines straight down: the highest elevation
+        drags_are_steps(h, ctx, {"light.elevation"}, -25); // it emits straight down: the highest elevation
         h.click(ctx, "light.remove");
         IM_CHECK(h.scene().lights.live() == lights + 2);
         h.focus(ctx, "Scene");
@@ -195,7 +195,7 @@ TEST_CASE("labels fit at any scale, and panels in any window", "[ui]") {
                 h.select("Floor");
                 ctx->Yield(3);
                 const ImGuiWindow* window = ImGui::FindWindowByName(panel);
-                IM_CHECK(window->ContentSize.x <= window->Size.x); // nothing runs out of it
+                IM_CHECK(window->ContentSize.x <= window->Size.x); // nothing exceeds it
             }
         });
     }
@@ -231,7 +231,7 @@ TEST_CASE("the outliner finds, selects, hides, locks and renames", "[ui]") {
     });
 }
 
-TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
+TEST_CASE("log, report, convergence, assets and help work", "[ui]") {
     Headless h("demo/demo.pbrt");
     h.play("log", [&](ImGuiTestContext* ctx) {
         h.focus(ctx, "Log");
@@ -255,7 +255,7 @@ TEST_CASE("log, report, convergence, assets and help answer", "[ui]") {
         IM_CHECK(h.editor().view.keys == editor::KeyPreset::blender);
         h.click(ctx, "help.standard");
         h.editor().run("select.all");
-        h.editor().run("select.none"); // Esc closes what floats over others, first
+        h.editor().run("select.none"); // Esc closes floating panels first
         ctx->Yield(2);
         IM_CHECK(!h.editor().panel_open("Help"));
         IM_CHECK(!h.editor().selection.instances().empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions and panels of plugins: the menu, the dialog of an action, its run in the background, one step to undo, and
-// the panel that runs it.
+// Actions and panels of plugins: the menu, the dialog of an action, its background run, one undo step, and the panel
+// that runs it.
 #include "headless.hpp"
 
 #include "base/file.hpp"
@@ -16,7 +16,7 @@ using tests::Headless;
 
 namespace {
 
-// For what a thread does, however long that takes on a busy machine.
+// Waits for work on a thread, however long that takes on a busy machine.
 void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (!there() && std::chrono::steady_clock::now() < limit) {
@@ -80,13 +80,13 @@ void open_stack(Headless& h, ImGuiTestContext* ctx, const std::vector<scene::Id<
 
 } // namespace
 
-TEST_CASE("an action of a plugin runs from the menu, and is one step to undo", "[ui]") {
+TEST_CASE("an action of a plugin runs from the menu, and is one undo step", "[ui]") {
     Headless h("demo/demo.pbrt");
     const auto ids = add_meadow(h);
     const std::size_t objects = h.scene().instances.live(), steps = h.step();
     h.play("menu", [&](ImGuiTestContext* ctx) {
         h.click(ctx, "menu.tools");
-        h.click(ctx, "tools.scatter"); // nothing is selected: it is grey
+        h.click(ctx, "tools.scatter"); // nothing is selected: it is disabled
         IM_CHECK(!h.has(ctx, "action.run"));
         ctx->KeyPress(ImGuiKey_Escape);
         h.editor().selection.set(ids);
@@ -124,11 +124,11 @@ TEST_CASE("an action that fails or is stopped changes nothing", "[ui]") {
         wait_until(ctx, [&] { return !h.editor().files().jobs.running(); });
         ctx->Yield(3);
         IM_CHECK(h.step() == steps);
-        IM_CHECK(h.editor().notices.lines().back().text.find("two objects at least") != std::string::npos);
+        IM_CHECK(h.editor().notices.lines().back().text.find("at least two objects") != std::string::npos);
     });
 }
 
-TEST_CASE("a panel of a plugin remembers its values and runs its action", "[ui]") {
+TEST_CASE("a panel of a plugin stores its values and runs its action", "[ui]") {
     const test::TemporaryFolder config;
     for (const bool again : {false, true}) {
         Headless h("demo/demo.pbrt", 1, {1500, 1000}, config.path());
@@ -152,7 +152,7 @@ TEST_CASE("a panel of a plugin remembers its values and runs its action", "[ui]"
             h.editor().selection.set(ids);
             h.click(ctx, "panel.scatter.ui.button.1");
             wait_until(ctx, [&] { return h.step() == steps + 1; });
-            IM_CHECK(h.scene().instances.live() == objects + 17); // in the second program, too
+            IM_CHECK(h.scene().instances.live() == objects + 17); // also in the second program
             h.editor().run("edit.undo");
             ctx->Yield(3);
             IM_CHECK(h.scene().instances.live() == objects);
@@ -160,7 +160,7 @@ TEST_CASE("a panel of a plugin remembers its values and runs its action", "[ui]"
     }
 }
 
-TEST_CASE("a rebuilt plugin's action and panel keep their values by name", "[ui]") {
+TEST_CASE("a rebuilt plugin's action and panel keep their values by id", "[ui]") {
     const Stack stack("action_sound");
     Headless h("demo/demo.pbrt", 1, {1500, 1000}, {}, stack.folder.path());
     const std::vector<scene::Id<scene::Instance>> ids{add_meadow(h)[0]};
@@ -188,7 +188,7 @@ TEST_CASE("a rebuilt plugin's action and panel keep their values by name", "[ui]
         h.click(ctx, "panel.stack.ui.button.0");
         wait_until(ctx, [&] { return h.step() == steps + 1; });
         IM_CHECK(h.scene().instances.live() == objects + 17);
-        IM_CHECK(state.panels["stack"].entries().size() == 1); // "step" is gone
+        IM_CHECK(state.panels["stack"].entries().size() == 1); // "step" was removed
     });
 }
 
@@ -213,12 +213,12 @@ TEST_CASE("an action and a panel that throw change nothing, and work again once 
         const auto told_once = h.editor().notices.count();
         ctx->Yield(5);
         IM_CHECK(h.editor().notices.count() == told_once); // not in each frame
-        IM_CHECK(!h.editor().panel_state->plugins.panels["stack"].find("copies")); // what it had set before
+        IM_CHECK(!h.editor().panel_state->plugins.panels["stack"].find("copies")); // its previous values
         h.click(ctx, "panel.stack.again");
         h.wait_for(ctx, "panel.stack.broken");
         IM_CHECK(h.editor().notices.count() == told_once + 1);
         IM_CHECK(h.step() == steps && h.scene().clock == version);
-        h.click(ctx, "tab.Outliner"); // others are drawn as ever
+        h.click(ctx, "tab.Outliner"); // others are still drawn
         stack.rebuild("action_rebuilt");
         h.wait_for(ctx, "panel.stack.gap");
         IM_CHECK(!h.has(ctx, "panel.stack.broken"));
@@ -229,7 +229,7 @@ TEST_CASE("an action and a panel that throw change nothing, and work again once 
     });
 }
 
-TEST_CASE("what 10,000 scattered copies cost the window", "[.][measure]") {
+TEST_CASE("frame times with 10,000 scattered copies", "[.][measure]") {
     Headless h("demo/demo.pbrt");
     const auto ids = add_meadow(h);
     const std::size_t steps = h.step();

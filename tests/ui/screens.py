@@ -21,7 +21,7 @@ from desk import Desk, Editor
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DEMO = ROOT / "scenes/demo/demo.pbrt"
-# Things an importer cannot keep, and a missing file.
+# Unsupported content, and a missing file.
 TROUBLED = """LookAt 0 1 4  0 0.5 0  0 1 0
 Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 640 "integer yresolution" 360
@@ -129,7 +129,7 @@ class Screens:
         self.rest()
 
     def calm(self):
-        """Closes and releases whatever the previous state left open or pressed."""
+        """Closes and releases everything that the previous state left open or pressed."""
         if not self.editor or self.editor.process.poll() is not None:
             return
         self.rest()
@@ -153,10 +153,10 @@ class Screens:
             try:
                 self.calm()
                 states[name](self)
-                time.sleep(0.7)  # what a click opened appears in the next frames
+                time.sleep(0.7)  # popups opened by a click appear in the next frames
                 self.shoot(name)
                 print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
-            except Exception:  # go on with the others
+            except Exception:  # continue with the others
                 traceback.print_exc()
                 self.failed.append(name)
                 self.shoot(name + ".failed")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One folder that brings a plugin of each kind (tests/plugins_outside/bundle), built against an installed Restage as a stranger builds it:
-checked, listed, used by the program, by Python and, with a real mouse, by the editor."""
+"""One folder with a plugin of each kind (tests/plugins_outside/bundle), built against an installed Restage like a third-party
+project: checked, listed, used by the program, by Python and, with a real mouse, by the editor."""
 import json
 import os
 import shutil
@@ -78,7 +78,7 @@ def test_a_bundle_is_used_by_commands(binary, bundle, towers, tmp_path):
     restage("render", towers, "-o", tmp_path / "noisy.exr", *size)
     restage("render", towers, "-o", tmp_path / "clean.exr", *size, "--denoise", "fast", "--denoiser", "blur")
     compared = run(binary, "compare", tmp_path / "noisy.exr", tmp_path / "clean.exr", "--max-flip", "0.001", ok=False)
-    assert compared.returncode == 1  # the blur is seen
+    assert compared.returncode == 1  # the blur is visible
     scene = tmp_path / "striped.pbrt"
     scene.write_text(STRIPED)
     restage("render", scene, "-o", tmp_path / "stripes.pfm", "--size", "16x16", "--spp", "16")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The main job on a real scene, with a real mouse and real keys: open the kitchen, pick, drag, copy, delete, change a
-material, drop a texture, give it a sky and turn it, undo all, redo all, save, reopen, export, re-import. Each step on the
-document and on the picture: changed where it must, and elsewhere only by noise."""
+material, drop a texture, set a sky and rotate it, undo all, redo all, save, reopen, export, re-import. Each step is checked
+on the document and on the picture: changed where required, and elsewhere only by noise."""
 import json
 import os
 import pathlib
@@ -37,7 +37,7 @@ def same(a, b):
 
 
 class Kitchen:
-    """The editor, and a picture of every state it was in."""
+    """The editor, and a picture of each of its states."""
 
     def __init__(self, editor):
         self.editor = editor
@@ -59,7 +59,7 @@ class Kitchen:
 
     def region(self):
         """The part of the picture in which the selection is, in blocks."""
-        self.editor.point("selection")  # once it is at rest
+        self.editor.point("selection")  # once it is stable
         marks = self.editor.state()["marks"]
         x0, y0, x1, y1 = marks["selection"]
         left, top = marks["picture"][:2]
@@ -68,7 +68,7 @@ class Kitchen:
 
 
 def changed_in(before, after, regions, least):
-    """Inside the regions something changed by `least`, outside nothing beyond noise (and the light from what changed)."""
+    """Inside the regions something changed by `least`, outside nothing beyond noise (and indirect light of the changes)."""
     d = difference(before, after)
     for region in regions:
         assert d[region].size and d[region].max() > least, f"the picture does not show the change: {d[region].max() if d[region].size else 0:.3f}"
@@ -80,7 +80,7 @@ def changed_in(before, after, regions, least):
 
 
 def shown_in(region, before, after, least):
-    """The region changed by `least` in the mean, and clearly more than the whole picture, in which there is noise."""
+    """The region changed by `least` on average, and clearly more than the whole picture, which is noisy."""
     d = difference(before, after)
     assert d[region].mean() > max(least, 2 * d.mean()), f"{d[region].mean():.4f} there, {d.mean():.4f} in the whole picture"
 
@@ -125,13 +125,13 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     first = kitchen.picture()
     assert first.std() > 0.1, "the viewport shows one flat colour"
 
-    # A click picks what is under it.
+    # A click picks the object under the mouse.
     editor.click(LAMP)
     state = editor.wait(lambda s: s["selection"], "the lamp to be selected")
     assert [item["name"] for item in state["selection"]] == ["Lamp"] and state["selection"][0]["material"] == "Lamp"
     was, start = kitchen.region(), np.array(state["selection"][0]["position"])
     editor.settled(SAMPLES)
-    assert difference(first, editor.picture())[was].max() > 0.1, "neither outline nor handles are seen"
+    assert difference(first, editor.picture())[was].max() > 0.1, "neither outline nor handles are visible"
 
     # Its handles move it, along x only, as one step.
     x, y = editor.point("gizmo.x")
@@ -144,7 +144,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     after_move = kitchen.picture()
     changed_in(first, after_move, [was, there], 0.12)
 
-    # A copy beside it; deleted, the picture is the one before it.
+    # A copy next to it; after deleting it, the picture is the previous one.
     editor.click(("picture", *middle(editor, there)))
     editor.wait(lambda s: [i["name"] for i in s["selection"]] == ["Lamp"], "the moved lamp to be selected")
     editor.key("ctrl+d")
@@ -195,7 +195,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     editor.drag("asset.redblue", WORKTOP)
     state = kitchen.step(7, "the sky")
     assert state["sky"] == "redblue"
-    editor.key("Home")  # looks from there, which changes nothing
+    editor.key("Home")  # looks from there, which does not change the document
     editor.wait(lambda s: s["views"]["apart"] and s["camera"] != opened["camera"], "all of it framed")
     editor.key("ctrl+shift+Home")
     kitchen.step(8, "the camera there")
@@ -260,7 +260,7 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
 
 
 def middle(editor, region):
-    """The middle of a region of blocks, as part of the picture."""
+    """The centre of a region of blocks, relative to the picture."""
     x0, y0, x1, y1 = editor.state()["marks"]["picture"]
     rows, columns = region
     return (columns.start + columns.stop) / 2 * BLOCK / (x1 - x0), (rows.start + rows.stop) / 2 * BLOCK / (y1 - y0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the editor reports if something is missing: light, folders to write to. And a camera without perspective."""
+"""The editor's notes if something is missing: light, folders to write to. And a camera without perspective."""
 import numpy as np
 
 BALL = """LookAt 0 0 5  0 0 0  0 1 0
@@ -47,7 +47,7 @@ def test_unwritable_folders_are_reported_once(launch, tmp_path):
 
 
 def test_things_are_picked_through_an_orthographic_camera(launch, tmp_path):
-    """Where they are seen: a unit of the scene is one of the film, however far away."""
+    """Handles are where objects are visible: a unit of the scene is one of the film, at any distance."""
     window = '"orthographic" "float screenwindow" [-3.5556 3.5556 -2 2]'
     editor = launch(scene(tmp_path, camera=window))
     editor.settled(samples=1)
@@ -68,7 +68,7 @@ def test_things_are_picked_through_an_orthographic_camera(launch, tmp_path):
 
 
 def test_the_wheel_zooms_through_an_orthographic_camera(launch, tmp_path):
-    """Nearer is no larger there: the film shrinks around what is under the mouse, and undoing the view brings it back."""
+    """Moving closer does not enlarge: the film shrinks around the point under the mouse, and undoing the view restores it."""
     editor = launch(scene(tmp_path, camera='"orthographic" "float screenwindow" [-3.5556 3.5556 -2 2]'))
     editor.settled(samples=1)
 
@@ -83,4 +83,4 @@ def test_the_wheel_zooms_through_an_orthographic_camera(launch, tmp_path):
     editor.move((2, 2))
     ratio = 0.88 ** -6
     editor.wait(lambda s: s["view"]["current"] and abs(area() / before / ratio - 1) < 0.1, "a larger ball", 60)
-    assert editor.state()["history"]["position"] == 0, "looking around changes nothing"
+    assert editor.state()["history"]["position"] == 0, "navigation does not change the document"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Transfers between panels and the picture, with a real mouse: materials picked and assets dragged there, missing
-images found again in the file browser, objects dragged between groups; and the hint of a first start."""
+images relinked in the file browser, objects dragged between groups; and the hint at the first start."""
 import json
 import pathlib
 
@@ -73,7 +73,7 @@ def test_a_plugins_sky_is_chosen_and_its_sun_dragged(editor):
     chosen = editor.picture()
     assert difference(first, chosen).max() > 0.1
     x, y = editor.point("sky.elevation")
-    editor.drag((x, y), (x + 80, y), steps=20)  # pictures are made meanwhile; the newest counts, and all are one step
+    editor.drag((x, y), (x + 80, y), steps=20)  # images are generated meanwhile; the newest is used, and all are one undo step
     state = editor.wait(lambda s: s.get("sky_values", {}).get("elevation", 35) > 35, "another sun", 60)
     assert state["history"]["position"] == 2
     editor.click("sky.sun")
@@ -101,7 +101,7 @@ def test_assets_are_dragged_into_the_picture(editor):
         search(asset)
         editor.drag("asset." + asset, where)
 
-    # While it is held, its target is outlined, and the target's material named beside the mouse.
+    # While it is held, its target is outlined, and the target's material named next to the mouse.
     search("oak")
     editor.move("asset.oak")
     editor.desk.xdotool("mousedown", 1)
@@ -133,7 +133,7 @@ def test_assets_are_dragged_into_the_picture(editor):
     assert state["counts"]["instances"] == before["instances"] + 1
     assert abs(state["selection"][0]["position"][2]) < 0.2, "it does not lie on the floor"
 
-    drag("floor-planks", "outliner.search")  # nothing there takes images
+    drag("floor-planks", "outliner.search")  # nothing there accepts images
     drag("sky", ("picture", 0.5, 0.5))  # skies are skies, no matter what is under the mouse
     state = editor.wait(lambda s: s["history"]["position"] == 3, "the sky", 60)
     assert state["history"]["labels"][2].startswith("Sky") and state["sky"] == "sky"

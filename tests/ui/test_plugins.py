@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plugins in the editor, with a real mouse: the part of the inspector that one draws itself, and a material that is
+"""Plugins in the editor, with a real mouse: a plugin's own part of the inspector, and a material that is
 edited on disk while its picture is on the screen."""
 
 import json
@@ -114,15 +114,15 @@ def test_a_material_is_edited_on_disk_while_it_is_shown(launch, tmp_path):
 
         editor.wait(seen, what, 60)
 
-    glsl.write_text(PAINT.replace("COLOR", "m.tint.bgr.grb"))  # the colours change places
+    glsl.write_text(PAINT.replace("COLOR", "m.tint.bgr.grb"))  # the colours are swapped
     until(lambda c: c[0] > 1.5 * c[1], "the edited GLSL")
     red = ball(editor)
-    # A compile error changes nothing, and is reported with its place.
+    # A compile error has no effect, and is reported with its place.
     glsl.write_text(PAINT.replace("COLOR", "m.tinted"))
     editor.wait(lambda s: "paint.glsl:4:" in editor.output(), "the error", 30)
     editor.settled()
     assert np.abs(ball(editor) - red).max() < 0.05
-    # Another table: the value lives in the scene, and survives.
+    # Another table: the value is in the scene, and survives.
     manifest["materials"][0]["params"] = [{"id": "gloss", "label": "Gloss", "type": "float", "default": 0.5}] + params
     (plugin / "plugin.json").write_text(json.dumps(manifest))
     glsl.write_text(PAINT.replace("COLOR", "m.tint"))
@@ -207,7 +207,7 @@ def test_another_denoiser_is_chosen_and_remembered(launch, binary, tmp_path):
     editor = launch("--plugin-path", plugin, file)
     editor.wait(by("copy"), "the plugin's, after a restart", 90)
     editor.kill()
-    editor = launch(file)  # without it: pictures are shown as they are, and the toolbar says why
+    editor = launch(file)  # without it: pictures are shown noisy, and the toolbar says why
     editor.wait(lambda s: s["view"]["samples"] >= 4, "a picture", 90)
     assert editor.state()["view"]["denoiser"] == "" and "copy" in editor.state()["view"]["denoiser_missing"]
     choose_denoiser(editor, "")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work survives a lost editor: it is killed in mid-edit, and restarted."""
+"""Work survives the loss of the editor: it is killed during editing, and restarted."""
 import ctypes
 import pathlib
 import signal
@@ -19,7 +19,7 @@ def hide_all(editor):
 
 
 def written_aside(editor):
-    path = editor.wait(lambda s: s["recovery"] and pathlib.Path(s["recovery"]).exists(), "work to be written aside", 15)["recovery"]
+    path = editor.wait(lambda s: s["recovery"] and pathlib.Path(s["recovery"]).exists(), "work to be autosaved", 15)["recovery"]
     return pathlib.Path(path)
 
 
@@ -53,7 +53,7 @@ def test_killed_in_mid_edit_and_recovered(launch, tmp_path, never_saved):
     state = second.wait(lambda s: s["counts"]["hidden"] == hidden, "the recovered scene", 60)
     assert state["modified"] and state["counts"]["instances"] == before["counts"]["instances"]
     assert state["history"]["labels"] == ["Recovered changes"]
-    # It is still safe, now in a file of the new process.
+    # It is still saved, now in a file of the new process.
     own = written_aside(second)
     assert list((config / "recovery").glob("*.restage")) == [own] and own != aside
     second.key("ctrl+z")
@@ -62,7 +62,7 @@ def test_killed_in_mid_edit_and_recovered(launch, tmp_path, never_saved):
     second.key("ctrl+y")
     second.wait(lambda s: s["modified"], "redo")
 
-    # A clean end leaves nothing.
+    # A clean exit leaves nothing.
     second.key("ctrl+q")
     second.wait(lambda s: s["modal"] == "Unsaved changes", "the question whether to save")
     second.click("unsaved.discard")
@@ -77,7 +77,7 @@ def test_later_offers_again_and_discard_does_not(launch, tmp_path):
     first.wait(lambda s: s["counts"]["instances"] == 1, "a new scene")
     hide_all(first)
     written_aside(first)
-    # Nothing is offered from a living process.
+    # Nothing of a running process is offered.
     neighbour = launch(config=config)
     assert neighbour.state()["modal"] == ""
     neighbour.close()
@@ -137,7 +137,7 @@ def test_ended_by_a_signal_with_nothing_to_save_leaves_nothing(launch, tmp_path)
 
 
 def test_a_lost_display_loses_nothing(binary, tmp_path):
-    """The X server is killed, as at a crash of the desktop."""
+    """The X server is killed, as in a crash of the desktop."""
     own = Desk(tmp_path / "screen")
     running = []
 
@@ -163,7 +163,7 @@ class ClientMessage(ctypes.Structure):  # XClientMessageEvent
 
 
 def ask_to_close(display, window):
-    """As a window manager does it: WM_DELETE_WINDOW."""
+    """Like a window manager: WM_DELETE_WINDOW."""
     x = ctypes.CDLL("libX11.so.6")
     x.XOpenDisplay.restype = ctypes.c_void_p
     x.XInternAtom.restype = ctypes.c_ulong
@@ -177,7 +177,7 @@ def ask_to_close(display, window):
 
 
 def test_a_close_request_autosaves_before_it_is_answered(launch, desk, tmp_path):
-    """A desktop whose session ends asks windows to close, and does not wait long."""
+    """At the end of its session a desktop requests windows to close, and does not wait long."""
     editor, aside, before, hidden = unsaved(launch, tmp_path / "config")
     found = subprocess.run(["xdotool", "search", "--name", "Restage"], env=desk.environment, check=True, capture_output=True, text=True)
     ask_to_close(desk.display, int(found.stdout.split()[-1]))

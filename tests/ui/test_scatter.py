@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Actions of plugins, with a real mouse: scatter from the menu, and one step back; one that crashes."""
+"""Actions of plugins, with a real mouse: scatter from the menu, and one undo; one that crashes."""
 import json
 import os
 import pathlib
@@ -54,7 +54,7 @@ def test_an_action_that_crashes_costs_no_work_and_is_off_afterwards(launch, bina
     editor.click("tools.stack")
     editor.click("action.run")
     assert editor.process.wait(180) == -signal.SIGSEGV
-    assert aside.read_text() == kept  # with the group, and nothing of what the action had done
+    assert aside.read_text() == kept  # with the group, without changes by the action
     again = launch("--plugin-path", plugin, environment=data)
     again.wait(lambda s: s["modal"] == "Unsaved work was found", "the offer to recover")
     again.click("recovery.recover")

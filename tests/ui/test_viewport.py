@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The viewport with a real mouse and real keys: pick, drag, copy, delete, navigate, undo; each step on the document and on
-the picture."""
+"""The viewport with a real mouse and real keys: pick, drag, copy, delete, navigate, undo; each step is checked on the document
+and on the picture."""
 import pathlib
 import time
 
@@ -141,7 +141,7 @@ def test_orbit_pan_zoom_and_back(editor):
     assert zoomed["history"]["size"] == 0 and not zoomed["modified"] and zoomed["scene_camera"] == opened["camera"]
     for key, place in (("bracketleft", panned), ("bracketleft", orbited), ("bracketleft", opened), ("bracketright", orbited)):
         editor.key(key)
-        editor.wait(lambda s: np.allclose(s["camera"], place["camera"]), f"{key}: one place on, and no part of a gesture")
+        editor.wait(lambda s: np.allclose(s["camera"], place["camera"]), f"{key}: one step further, not part of a gesture")
     editor.key("ctrl+shift+Home")  # the camera comes here
     state = editor.wait(lambda s: s["history"]["position"] == 1, "the camera moved as one step")
     assert np.allclose(state["scene_camera"], orbited["camera"]) and not state["views"]["apart"] and state["modified"]
@@ -185,7 +185,7 @@ def test_quick_keys_are_all_done_in_order(editor):
     for steps in range(5):
         editor.key("ctrl+d")
         editor.wait(lambda s: s["history"]["size"] == steps + 1, "a copy")
-    # Far faster than fingers; but GLFW drops the second of two presses of a key that X gives the same millisecond.
+    # Faster than any user; but GLFW drops the second of two presses of a key with the same X timestamp in milliseconds.
     editor.desk.xdotool(*["key", "--delay", "4"] + ["ctrl+z"] * 5 + ["ctrl+y"] * 5 + ["ctrl+z", "ctrl+y"] * 15)
     eye = editor.state()["camera"]
     editor.key("Home")  # comes after them; undo and redo leave the view alone
@@ -263,7 +263,7 @@ def test_the_validation_layers_are_silent(launch):
 
 
 def test_partial_redraws_equal_a_full_redraw(editor):
-    """Menus, tips, handles and panels come and go; afterwards the window's pixels equal a full redraw."""
+    """Menus, tooltips, handles and panels appear and vanish; afterwards the window's pixels equal a full redraw."""
     editor.click(CHAIR)
     editor.wait(lambda s: s["selection"], "a selection")
     for menu in ("menu.edit", "menu.panels"):
@@ -284,8 +284,8 @@ def test_partial_redraws_equal_a_full_redraw(editor):
     editor.wait(lambda s: s["marks"]["picture"] != place, "the smaller window")
     editor.desk.resize("Restage", (1280, 720))
     editor.wait(lambda s: s["marks"]["picture"] == place, "the window's first size")
-    x0, y0, x1, y1 = (int(v) for v in editor.state()["marks"]["picture"])  # it gathers samples meanwhile
-    for _ in range(20):  # a busy machine takes its time to draw the larger window
+    x0, y0, x1, y1 = (int(v) for v in editor.state()["marks"]["picture"])  # it accumulates samples meanwhile
+    for _ in range(20):  # a busy machine needs time to draw the larger window
         time.sleep(0.5)
         whole = editor.desk.screenshot()
         whole[y0:y1, x0:x1] = parts[y0:y1, x0:x1]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures in the inspector: made of any loaded type, edited, nested, swapped and removed; each change is one step.
+// Textures in the inspector: created of any loaded type, edited, nested, swapped and removed; each change is one undo
+// step.
 #include "headless.hpp"
 
 #include "scene/edits_texture.hpp"
@@ -28,7 +29,7 @@ Clay clay(Headless& h) {
 
 } // namespace
 
-TEST_CASE("a texture of any loaded type is made, edited, swapped and removed in the inspector", "[ui]") {
+TEST_CASE("a texture of any loaded type is created, edited, swapped and removed in the inspector", "[ui]") {
     Headless h("spheres/spheres.pbrt");
     const Clay at = clay(h);
     const auto in_slot = [&](const char* param) -> const scene::Texture* {
@@ -54,7 +55,7 @@ TEST_CASE("a texture of any loaded type is made, edited, swapped and removed in 
             IM_CHECK(made && made->type == entry.table->type && !made->is_float);
             const auto first =
                 std::ranges::find_if(entry.table->params, [](const model::Param& line) { return line.texturable; });
-            if (first != entry.table->params.end()) // what the slot had
+            if (first != entry.table->params.end()) // the slot's previous content
                 IM_CHECK(made->params.find(first->id)->v == before.params.find("reflectance")->v);
             IM_CHECK(undone(ctx, step));
             IM_CHECK(h.scene().materials[at.material] == before);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run by hand: the edit of the thesis this project follows, with a real mouse and real keys under Xvfb. "Country Kitchen"
-becomes another kitchen (island gone, table longer, chairs, places and the lamp cloned, walls repainted), and then the same
-room in other materials. Nothing is done but pointing, dragging, keys and typed numbers; where a person checks whether a thing
-is in place, the script reads the editor's own account of it (--probe).
+"""Run manually: the edit of the thesis that this project follows, with a real mouse and real keys under Xvfb. "Country Kitchen"
+becomes a different kitchen (island removed, table longer, chairs, places and the lamp cloned, walls repainted), and then the
+same room in other materials. Only pointing, dragging, keys and typed numbers are used; where a person would check the position
+of a thing, the script reads the editor's state (--probe).
 
     build/venv/bin/python tests/ui/thesis.py RESTAGE SCENES/kitchen/scene.pbrt OUT
 
@@ -60,14 +60,14 @@ class Hand:
             self.note(f"key {key}", KEY * (1 + key.count("+")), keys=True)
             if key in ("Delete", "ctrl+g"):
                 self.e.wait(lambda s: s["history"]["position"] > before, key, 10)
-        time.sleep(0.6)  # frames may be slow; a person looks, too
+        time.sleep(0.6)  # frames may be slow; a person also looks
 
     def steps(self):
         return self.state()["history"]["position"]
 
     def pull(self, start, toward, good, keys=(), what="drag"):
         """Drags from a point in a direction on the screen (pixels) until good(state) is 0 or has changed its sign, then back in smaller
-        steps, like hand and eye. `good` is positive until it is done."""
+        steps, as by hand and eye. `good` is positive until it is done."""
         at = np.array(self.e.point(start), float)
         step = np.array(toward, float)
         before = self.steps()
@@ -76,7 +76,7 @@ class Hand:
             self.e.desk.xdotool("keydown", key)
         self.e.desk.xdotool("mousedown", 1)
         time.sleep(0.15)
-        at += step / max(np.linalg.norm(step), 1e-9) * 8  # past what counts as a click
+        at += step / max(np.linalg.norm(step), 1e-9) * 8  # beyond the threshold of a click
         last = None
         for _ in range(90):
             self.e.desk.xdotool("mousemove", int(round(at[0])), int(round(at[1])))
@@ -89,7 +89,7 @@ class Hand:
             last = value
             at += step
         else:
-            raise AssertionError(f"{what}: it does not get there, {value:.3f} is left")
+            raise AssertionError(f"{what}: not reached, {value:.3f} remains")
         self.e.desk.xdotool("mouseup", 1)
         for key in keys:
             self.e.desk.xdotool("keyup", key)
@@ -121,7 +121,7 @@ class Hand:
 
     def number(self, mark, part, text, what):
         """Ctrl + click on the part-th of the three fields of a widget, and a number typed into it."""
-        self.e.point(mark)  # once it is at rest
+        self.e.point(mark)  # once it is stable
         x0, y0, x1, y1 = self.state()["marks"][mark]
         before = self.steps()
         at = (int(x0 + (x1 - x0) * (0.12 + 0.27 * part)), int((y0 + y1) / 2))
@@ -151,24 +151,24 @@ HALF = np.tan(np.radians(35.9834 / 2))
 
 LAMP = ("picture", 0.739, 0.30)
 WALL = ("picture", 0.936, 0.484)
-LONGER = 1.42  # the table, and how far the copies of what stands at it and on it go
+LONGER = 1.42  # the table, and the displacement of copies of the things at and on it
 
 
 def project(point):
-    """Where the kitchen's camera sees it: (0,0) top left, (1,1) bottom right."""
+    """Its position in the kitchen camera's picture: (0,0) top left, (1,1) bottom right."""
     x, y, z, _ = TO_CAMERA @ [*point, 1]
     return 0.5 + x / z / HALF / (16 / 9) / 2, 0.5 - y / z / HALF / 2
 
 
 def another_kitchen(hand):
-    # The island and all that is on it.
+    # The island and everything on it.
     hand.click(("picture", 0.385, 0.85), "SmallWorktop")
     hand.key("c")
     hand.e.wait(lambda s: s["selected"] == 43, "the whole island", 5)
     hand.key("Delete")
     hand.e.wait(lambda s: s["counts"]["instances"] == 299 - 43, "no island")
 
-    # The chairs at the near end of the table: from now on one thing each; and a copy of each, nearer.
+    # The chairs at the near end of the table: each grouped; and a copy of each, nearer.
     for at, material, count in (((1.09, 1.01, -1.27), "TableCross", 18), ((-0.555, 1.03, -1.15), "TableCross", 14)):
         hand.click(("picture", *project(at)), material)
         hand.key("c")
@@ -180,7 +180,7 @@ def another_kitchen(hand):
     # The table: top, legs, frame; longer, and its far end at the window again.
     hand.click(("picture", *project((0.15, 0.86, -0.80))), "Tabletop")
     hand.click(("picture", *project((0.62, 0.4, -0.78))), "TableCross", keys=["ctrl"])
-    for frame in ("TableCross 47", "TableCross 46"):  # hidden by what is before it, but listed beside the legs
+    for frame in ("TableCross 47", "TableCross 46"):  # occluded, but listed next to the legs
         hand.click(f"outliner.{frame}", "TableCross", keys=["ctrl"])
     assert hand.names() == ["TableCross 46", "TableCross 47", "TableCross 48", "Tabletop"]
     hand.key("r")
@@ -190,7 +190,7 @@ def another_kitchen(hand):
     hand.key("w")
     lower, upper = hand.box()
     hand.slide((0.15, 0.86, upper[2] - 0.15), np.array([0, 0, -2.46 - lower[2]]), "the table to the window")
-    hand.key("ctrl+l")  # locked: what lies on it can be picked without it
+    hand.key("ctrl+l")  # locked: things on it can be picked without it
 
     # Four more places.
     hand.click(("picture", *project((-0.16, 0.878, -1.12))), "Plates")
@@ -240,7 +240,7 @@ def save(hand, path):
 
 
 def edit(binary, scene, out, name, how):
-    """Opens the scene, edits it, saves it; prints what that took."""
+    """Opens the scene, edits it, saves it; prints the effort."""
     project_file = out / f"{name}.restage"
     project_file.unlink(missing_ok=True)
     with tempfile.TemporaryDirectory() as folder:

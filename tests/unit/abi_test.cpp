@@ -298,7 +298,7 @@ TEST_CASE("plugins built for pre-release interfaces are refused with a remedy", 
     REQUIRE(registry.entries().size() == 1);
     CHECK(registry.entries()[0]->state == plugin::State::refused);
     CHECK(registry.entries()[0]->reason.find("\"kind\" and \"abi\" belong to Restage 0.1") != std::string::npos);
-    // And with a manifest of today beside the old library: nothing of it runs.
+    // And with a current manifest and the old library: none of its code runs.
     REQUIRE(fs::exists(folder / "velvet.so"));
     lines.lines.clear();
     const fs::path where = lines.add("p", test::manifest(), nullptr);

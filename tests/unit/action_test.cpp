@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Actions of plugins: every call of the edit writer, what it refuses, that all of it is one step of undo, and that an
-// edit of an older scene lands on a newer one or not at all.
+// Actions of plugins: every call of the edit writer and its refusals; a run is one undo step; an edit made for an older
+// scene is rebased onto a newer one, or refused.
 #include "document/actions.hpp"
 #include "io/edit_writer.hpp"
 #include "io/scene_compare.hpp"
@@ -31,7 +31,7 @@ int run_body(const RestageSceneReader1* scene, const RestageSelection1* selectio
     return body(*scene, *selection, values, count, *edits);
 }
 
-// A document with the room, and an action that does what a test says.
+// A document with the room, and an action with a test's code.
 struct Stage {
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
@@ -89,7 +89,7 @@ glm::dmat4 at(double x) {
 
 } // namespace
 
-TEST_CASE("an action adds things whose handles hold at once, as one step of undo", "[action]") {
+TEST_CASE("an action adds things whose handles are valid immediately, as one undo step", "[action]") {
     Stage s;
     const Scene before = s.scene();
     std::uint32_t made = 0;
@@ -118,7 +118,7 @@ TEST_CASE("an action adds things whose handles hold at once, as one step of undo
         instance.has_medium_interface = 1, instance.interior = w.add_medium(ctx, &fog);
         made = w.add_instance(ctx, &instance);
         CHECK(made == before.instances.size() + 1);
-        // What a material shines with by itself is not the object's own.
+        // A material's emission is not the object's own.
         instance.flags = RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_EMITS_BY_MATERIAL;
         instance.emission[0] = 5;
         CHECK(w.add_instance(ctx, &instance) == made + 1);
@@ -142,7 +142,7 @@ TEST_CASE("an action adds things whose handles hold at once, as one step of undo
     CHECK(done.report.entries[0].what == "one chair");
     const Scene& now = s.scene();
     const Instance& chair = now.instances[{made}];
-    CHECK(chair.name == "chair 3"); // "chair" and "chair 2" were there
+    CHECK(chair.name == "chair 3"); // "chair" and "chair 2" existed
     CHECK(chair.object_to_world == at(7));
     CHECK(now.groups[chair.group].parent == s.room.room);
     CHECK(now.materials[chair.material].params.texture("reflectance"));
@@ -160,7 +160,7 @@ TEST_CASE("an action adds things whose handles hold at once, as one step of undo
     CHECK(s.scene().instances.find({made}));
 }
 
-TEST_CASE("an action changes and removes what there is", "[action]") {
+TEST_CASE("an action changes and removes existing things", "[action]") {
     Stage s;
     const test::Room& r = s.room;
     const auto done = s.done([&](const RestageEditWriter1& w, void* ctx) {
@@ -187,7 +187,7 @@ TEST_CASE("an action changes and removes what there is", "[action]") {
         sky.scale[0] = 3;
         CHECK(w.set_environment(ctx, &sky));
         sky.scale[0] = 2;
-        CHECK(w.set_environment(ctx, &sky)); // the last counts, and it is not a loss
+        CHECK(w.set_environment(ctx, &sky)); // the last one counts, and this is not a loss
         CHECK(w.progress(ctx, 0.5f, "half"));
     });
     CHECK(done.report.entries.empty());
@@ -212,7 +212,7 @@ TEST_CASE("an action changes and removes what there is", "[action]") {
     REQUIRE(s.session.undo());
     REQUIRE(s.session.undo());
     CHECK(io::structural_differences(r.scene, s.scene(), s.registry, {.names = true}).empty());
-    // What does nothing is no step.
+    // A run without changes is not an undo step.
     const auto nothing = s.done([&](const RestageEditWriter1& w, void* ctx) {
         CHECK(w.set_hidden(ctx, RESTAGE_KIND_INSTANCE, r.chair.value, 0));
     });
@@ -220,7 +220,7 @@ TEST_CASE("an action changes and removes what there is", "[action]") {
     CHECK(s.session.history().position() == 0);
 }
 
-TEST_CASE("what an action may not do is refused with a line", "[action]") {
+TEST_CASE("invalid changes by an action are refused with a report line", "[action]") {
     Stage s;
     const test::Room& r = s.room;
     using W = const RestageEditWriter1&;
@@ -264,7 +264,7 @@ TEST_CASE("what an action may not do is refused with a line", "[action]") {
             CHECK(!w.set_environment(c, &sky));
         },
         "the environment");
-    // What this run has made it cannot remove: the rest of it stays.
+    // A run cannot remove things it has added; its other changes stay.
     const auto result = s.write([&](W w, void* c) {
         const RestageInstance i = copy_of(r.mesh.value, r.oak.value, 0);
         const RestageHandle made[] = {w.add_instance(c, &i)};
@@ -275,7 +275,7 @@ TEST_CASE("what an action may not do is refused with a line", "[action]") {
     CHECK(result->report.count(io::Fate::dropped) == 1);
 }
 
-TEST_CASE("an action that fails, is stopped or makes the scene unsound changes nothing", "[action]") {
+TEST_CASE("an action that fails, is cancelled or makes the scene invalid changes nothing", "[action]") {
     Stage s;
     const test::Room& r = s.room;
     const auto message = [&](const Body& what, io::ActionRun run = {}) {
@@ -290,8 +290,9 @@ TEST_CASE("an action that fails, is stopped or makes the scene unsound changes n
                    return 0;
                }).message,
                ContainsSubstring("Test: no floor: make one"));
-    CHECK_THAT(message([](auto&, auto&, auto*, auto, auto&) { return 0; }).message,
-               ContainsSubstring("Test: failed and gave no reason. Nothing was changed. This is a bug in the plugin "));
+    CHECK_THAT(
+        message([](auto&, auto&, auto*, auto, auto&) { return 0; }).message,
+        ContainsSubstring("Test: failed without giving a reason. Nothing was changed. This is a bug in the plugin "));
     CHECK_THAT(message([&](auto&, auto&, auto*, auto, auto& w) -> int {
                    w.set_transform(w.ctx, r.chair.value, &at(2)[0][0]);
                    throw std::runtime_error("lost count");
@@ -314,7 +315,7 @@ TEST_CASE("an action that fails, is stopped or makes the scene unsound changes n
         },
         {.selection = {}, .values = {}, .progress = [&](float, std::string_view) { return ++calls < 3; }});
     CHECK(stopped.cancelled());
-    // A mix that holds itself, a group in itself: no single call sees it.
+    // A mix or group that contains itself: not detected by a single call.
     const Error circle = message([&](auto&, auto&, auto*, auto, auto& w) {
         RestageValue value{};
         value.id = "first", value.type = RESTAGE_MATERIAL, value.ref = r.oak.value;
@@ -325,7 +326,7 @@ TEST_CASE("an action that fails, is stopped or makes the scene unsound changes n
     CHECK(s.session.history().size() == 0);
 }
 
-TEST_CASE("an action gets its parameters and its selection", "[action]") {
+TEST_CASE("an action receives its parameters and selection", "[action]") {
     Stage s;
     const test::Room& r = s.room;
     s.table.params = {
@@ -345,7 +346,7 @@ TEST_CASE("an action gets its parameters and its selection", "[action]") {
             REQUIRE(count == 2);
             CHECK(values[0].i == 4);
             CHECK(values[1].v[0] == 1.5f);
-            // The reader goes on showing the scene as it was.
+            // The reader keeps showing the scene as it was.
             CHECK(w.set_transform(w.ctx, r.chair.value, &at(2)[0][0]));
             RestageInstance chair{};
             CHECK(scene.instance(scene.ctx, r.chair.value, &chair));
@@ -374,10 +375,10 @@ TEST_CASE("an action gets its parameters and its selection", "[action]") {
     CHECK_THAT(refusal(wrong), ContainsSubstring("\"count\""));
     wrong = run;
     wrong.values.set("nothing", Value::integer(10));
-    CHECK_THAT(refusal(wrong), ContainsSubstring("there are: count, size"));
+    CHECK_THAT(refusal(wrong), ContainsSubstring("known: count, size"));
 }
 
-TEST_CASE("what an action made of an older scene lands on a newer one, or not at all", "[action]") {
+TEST_CASE("edits made for an older scene are rebased onto a newer one, or refused", "[action]") {
     Stage s;
     const test::Room& r = s.room;
     const auto adds_and_moves = [&](const RestageEditWriter1& w, void* c) {
@@ -387,7 +388,7 @@ TEST_CASE("what an action made of an older scene lands on a newer one, or not at
         w.add_instance(c, &i);
         w.set_transform(c, r.lamp.value, &at(5)[0][0]);
     };
-    SECTION("other things changed, and things came") {
+    SECTION("other things were changed or added") {
         auto result = s.write(adds_and_moves);
         REQUIRE(result);
         REQUIRE(s.session.duplicate(std::vector{r.chair}, at(1)));
@@ -412,12 +413,12 @@ TEST_CASE("what an action made of an older scene lands on a newer one, or not at
         CHECK_THAT(done.error().message, ContainsSubstring(why));
         CHECK(s.session.version() == before);
     };
-    SECTION("what it changes has changed") {
+    SECTION("a thing that it changes was changed") {
         auto result = s.write(adds_and_moves);
         REQUIRE(s.session.move(std::vector{r.lamp}, at(1)));
         refused(std::move(result), "instance \"lamp\" has changed meanwhile: run it again");
     }
-    SECTION("what it refers to is gone") {
+    SECTION("a thing that it refers to was removed") {
         auto result = s.write([&](const RestageEditWriter1& w, void* c) {
             const RestageInstance i = copy_of(r.mesh.value, r.steel.value, 1);
             w.add_instance(c, &i);
@@ -426,7 +427,7 @@ TEST_CASE("what an action made of an older scene lands on a newer one, or not at
         REQUIRE(s.session.edit(remove(s.scene(), r.steel)));
         refused(std::move(result), "material \"steel\" has been removed meanwhile");
     }
-    SECTION("what it removes is in use by now") {
+    SECTION("a thing that it removes is in use by now") {
         REQUIRE(s.session.edit(insert(s.scene(), Material{.name = "spare", .type = "diffuse"}, "add")));
         const Id<Material> spare = s.session.find<Material>("spare");
         auto result = s.write([&](const RestageEditWriter1& w, void* c) {
@@ -443,7 +444,7 @@ TEST_CASE("what an action made of an older scene lands on a newer one, or not at
     }
 }
 
-TEST_CASE("tables of actions and panels are judged before they are used", "[action]") {
+TEST_CASE("tables of actions and panels are validated before use", "[action]") {
     const RestageParam params[] = {RESTAGE_INT_PARAM("copies", "Copies", 1, 9, 3, 0, "", "How many."),
                                    RESTAGE_FLOAT_PARAM("step", "Step", 0, 1, 0.5f, 0, "m", "How far.")};
     RestageAction1 a{.size = sizeof(RestageAction1),
@@ -476,14 +477,14 @@ TEST_CASE("tables of actions and panels are judged before they are used", "[acti
     model::Panel panel{.id = "row", .label = "Row", .params = {{.id = "of", .label = "Of"}}};
     CHECK(plugin::check_panel(panel).empty());
     panel.params[0].type = ParamType::material;
-    CHECK_THAT(plugin::check_panel(panel), ContainsSubstring("holds no things of a document"));
+    CHECK_THAT(plugin::check_panel(panel), ContainsSubstring("cannot refer to things of a document"));
     const RestagePanel1 empty{.size = sizeof(RestagePanel1), .id = "row", .label = "Row"};
     CHECK_THAT(plugin::read_panel1(empty).error().message, ContainsSubstring("lacks draw"));
 }
 
 namespace {
 
-struct Silent final : plugin::PanelWidgets { // a user who does nothing
+struct Silent final : plugin::PanelWidgets { // simulates a passive user
     void param(const char*) override {}
     void hide(const char*) override {}
     void slider(const char*, const char*, float, float, bool) override {}
@@ -509,7 +510,7 @@ struct Silent final : plugin::PanelWidgets { // a user who does nothing
 
 } // namespace
 
-TEST_CASE("a panel runs actions and knows how many objects are selected", "[action]") {
+TEST_CASE("a panel runs actions and gets the number of selected objects", "[action]") {
     const RestagePanel1 native{
         .size = sizeof(RestagePanel1), .id = "row", .label = "Row", .draw = [](const RestageUi1* ui, void* ctx) {
             if (ui->selected(ctx) == 7 && ui->button(ctx, "Row", "")) ui->run(ctx, "row");

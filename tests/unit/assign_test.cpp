@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes as text ("oak.reflectance=0.2"), and parts of a picture put together.
+// Changes as text ("oak.reflectance=0.2"), and merging parts of a picture.
 #include "document/assign.hpp"
 #include "project_room.hpp"
 #include "view/merge_pictures.hpp"
@@ -97,7 +97,7 @@ render::FilmImage film_of(const std::vector<double>& samples) {
 
 } // namespace
 
-TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
+TEST_CASE("Merged parts of a picture are the picture", "[merge]") {
     const std::vector<double> first{0.5, 2, 1.25}, second{0.25, 3, 0.75, 1, 4};
     std::vector<double> all = first;
     all.insert(all.end(), second.begin(), second.end());
@@ -113,7 +113,7 @@ TEST_CASE("Parts of a picture, put together, are the picture", "[merge]") {
     CHECK(merged->instance_id[0] == 3); // of the earliest sample
     CHECK_FALSE(view::merge_films({}));
 
-    // The same through files, with the exposure baked in; and parts that do not belong together.
+    // Likewise through files, with the exposure applied; and parts that do not belong together.
     const TemporaryFolder folder;
     const auto write = [&](const char* name, const render::FilmImage& film, const char* ranges, const char* scene) {
         const std::string path = (folder.path() / name).string();

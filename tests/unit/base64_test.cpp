@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base64: the examples of RFC 4648, 10; every byte at every place; what is not base64.
+// base64: the examples of RFC 4648, 10; every byte at every position; invalid input.
 #include "base/base64.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -26,7 +26,7 @@ TEST_CASE("base64 is that of RFC 4648", "[base]") {
     }
 }
 
-TEST_CASE("what is not base64 is refused", "[base]") {
+TEST_CASE("invalid base64 is refused", "[base]") {
     for (const char* text : {"Z", "Zg", "Zg=", "Zm9", "Z===", "Zm9v\n", "Zm 9v===", "Zm-_", "=Zm9", "Zm=v"})
         CHECK_FALSE(decode_base64(text));
 }

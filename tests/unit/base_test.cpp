@@ -105,7 +105,7 @@ TEST_CASE("writing replaces no pipe or device, and a link's target instead of th
 TEST_CASE("non-regular and oversized files are refused at once", "[base]") {
     const test::TemporaryFolder folder;
     const fs::path pipe = folder / "pipe.png";
-    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0); // it has no writer: opening it would block for ever
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0); // it has no writer: opening it would block forever
     CHECK(read_file(pipe).error().message == pipe.string() + ": is a pipe, not a regular file");
     CHECK(read_file("/dev/zero").error().message == "/dev/zero: is a device, not a regular file");
     REQUIRE(write_file_atomic(folder / "five", "12345"));
@@ -117,7 +117,7 @@ TEST_CASE("non-regular and oversized files are refused at once", "[base]") {
     CHECK_FALSE(read_file(folder / "sparse"));
 }
 
-TEST_CASE("JSON that is nested too deep is refused with its place, whatever its strings hold", "[base]") {
+TEST_CASE("JSON that is nested too deep is refused with its place, whatever its strings contain", "[base]") {
     const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
     CHECK(parse_json<nlohmann::json>(nested(most_json_depth)));
     const auto deep = parse_json<nlohmann::json>("\n " + nested(20000));
@@ -163,7 +163,7 @@ TEST_CASE("parallel_for visits each index once, for any grain", "[base]") {
     }
 }
 
-TEST_CASE("loops inside loops and beside loops finish and are complete", "[base]") {
+TEST_CASE("nested and concurrent loops finish and are complete", "[base]") {
     Jobs jobs(3);
     std::atomic<int> sum{0};
     const auto outer = [&](std::size_t begin, std::size_t end, unsigned) {
@@ -180,7 +180,7 @@ TEST_CASE("loops inside loops and beside loops finish and are complete", "[base]
     CHECK(sum == 2 * 50 * 20 * 10);
 }
 
-TEST_CASE("an exception in a loop reaches the caller and the pool lives on", "[base]") {
+TEST_CASE("an exception in a loop reaches the caller and the pool stays usable", "[base]") {
     Jobs jobs(2);
     CHECK_THROWS_AS(jobs.parallel_for(100, 1,
                                       [](std::size_t begin, std::size_t, unsigned) {
@@ -207,7 +207,7 @@ TEST_CASE("denormals are zero inside a loop and only there", "[base]") {
 }
 #endif
 
-TEST_CASE("the log drops what is below its threshold", "[base]") {
+TEST_CASE("the log drops lines below its threshold", "[base]") {
     std::vector<std::string> lines;
     Log log([&](LogLevel, std::string_view line) { lines.emplace_back(line); });
     log.debug("a");

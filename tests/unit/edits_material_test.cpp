@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// edits_material: another type keeps what fits, a unique copy leaves the others alone, images are shared. And the
-// colour temperature that light widgets use.
+// edits_material: a new type keeps compatible values, a unique copy does not affect others, images are shared. And the
+// colour temperature used by light widgets.
 #include "scene/color_temperature.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
@@ -46,7 +46,7 @@ Material switched(const Material& material, ParamTable before, ParamTable after)
 
 } // namespace
 
-TEST_CASE("another type of material keeps the common values", "[scene][materials]") {
+TEST_CASE("changing a material's type keeps the common values", "[scene][materials]") {
     Material m{.name = "paint", .type = "matte"};
     m.params.set("reflectance", Value::color(0.8f, 0.1f, 0.2f));
     m.params.set("uroughness", Value::number(0.4f));
@@ -57,7 +57,7 @@ TEST_CASE("another type of material keeps the common values", "[scene][materials
     CHECK(after.type == "other");
     CHECK(after.params.color("kd", {}) == std::array{0.8f, 0.1f, 0.2f}); // the main colour, under its new name
     CHECK(after.params.number("roughness", -1) == 0.4f);
-    CHECK_FALSE(after.params.find("eta")); // does not fit: the new default holds
+    CHECK_FALSE(after.params.find("eta")); // incompatible: the new default applies
     CHECK(after.params.number("depth", -1) == 2);
     CHECK(after.params.number("unknown", -1) == 3);
     CHECK(after.params.color("reflectance", {}) == std::array{0.8f, 0.1f, 0.2f}); // and back again
@@ -71,10 +71,10 @@ TEST_CASE("a default colour carries over to the new type; values set there stay"
     CHECK(switched(m, matte, gloss).params.color("kd", {}) == std::array{0.f, 1.f, 0.f});
 }
 
-TEST_CASE("a texture stays only where the new type takes one", "[scene][materials]") {
+TEST_CASE("a texture is kept only if the new type accepts one", "[scene][materials]") {
     Material m{.name = "m", .type = "matte"};
     m.params.set("roughness", {.type = model::ParamType::number, .texture = {1}});
-    CHECK_FALSE(switched(m, {}, gloss).params.find("roughness")); // its default holds
+    CHECK_FALSE(switched(m, {}, gloss).params.find("roughness")); // its default applies
     m.params.set("kd", {.type = model::ParamType::color, .texture = {1}});
     CHECK(switched(m, {}, gloss).params.texture("kd") == Id<Texture>{1});
 }
@@ -94,7 +94,7 @@ TEST_CASE("make_unique copies a material for some of the objects that share it",
     CHECK(scene.materials[made->material].type == "diffuse");
     CHECK(scene.instances[a].material == made->material);
     CHECK(scene.instances[b].material == oak);
-    CHECK(scene.instances[c].material == steel); // it never had it
+    CHECK(scene.instances[c].material == steel); // it never had this material
     REQUIRE(history.undo(scene));
     CHECK(scene.instances[a].material == oak);
     CHECK(scene.materials.live() == 2);
@@ -118,7 +118,7 @@ TEST_CASE("an image for a parameter is shared with textures that already show it
     apply(scene, *set_image_texture(scene, walnut, "reflectance", model::ParamType::color, false, image));
     CHECK(scene.materials[walnut].params.texture("reflectance") == texture);
     CHECK(scene.images.live() == 1);
-    // As data it is another image: other numbers.
+    // As data it is a different image, with different values.
     Image data = image;
     data.encoding = scene::Encoding::linear;
     apply(scene, *set_image_texture(scene, oak, "bump", model::ParamType::texture, true, data));

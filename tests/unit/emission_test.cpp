@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials that emit (restage/emission.h): refusals, resulting values, and pbrt files there and back.
+// Materials that emit (restage/emission.h): refusals, resulting values, and round trips through pbrt files.
 #include "scene/emission.hpp"
 #include "paths.hpp"
 
@@ -114,7 +114,7 @@ TEST_CASE("pbrt gets an area light for an emitting material, and returns the mat
     }
 }
 
-TEST_CASE("where the plugin is missing, a pbrt file's light stays a light", "[emission][pbrt]") {
+TEST_CASE("if the plugin is missing, a pbrt file's light stays a light", "[emission][pbrt]") {
     Plugins plugins;
     Folder folder;
     {

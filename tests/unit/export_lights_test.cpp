@@ -156,8 +156,7 @@ TEST_CASE("a projection light of pbrt-v4 keeps its power, and its angle, which p
     CHECK_THAT(t.text, ContainsSubstring("\"float fov\" [ 10 ]"));
 }
 
-TEST_CASE("lights with a picture are the same after a round trip, edited too, and missing pictures are named",
-          "[export]") {
+TEST_CASE("lights with a picture survive a round trip, even edited, and missing pictures are named", "[export]") {
     Trip t;
     write_picture(t.in.file("map.pfm"), 16, 16, [](auto, auto) { return glm::vec3(1); });
     Scene scene = t.import_text(false,
@@ -181,6 +180,6 @@ TEST_CASE("lights with a picture are the same after a round trip, edited too, an
                                              "\"rgb I\" [ 2 4 6 ]"));
     Trip v3;
     v3.export_as(scene, "v3");
-    CHECK_THAT(v3.text, ContainsSubstring("LightSource \"spot\"")); // a stand-in, and it says so
+    CHECK_THAT(v3.text, ContainsSubstring("LightSource \"spot\"")); // a replacement, which is reported
     CHECK(v3.report.count(io::Fate::dropped) == 1);
 }

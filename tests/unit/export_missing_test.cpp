@@ -118,7 +118,7 @@ TEST_CASE("a missing file is found, and written", "[export]") {
     CHECK_THAT(exported(found, out, plugins, "v4"), ContainsSubstring("\"chair.ply\""));
 }
 
-TEST_CASE("strict exports refuse what the format lacks and write nothing", "[export]") {
+TEST_CASE("strict exports refuse losses and write nothing", "[export]") {
     Plugins plugins;
     Folder folder, out;
     write(folder.file("in.pbrt"), v4_head + lost_files);
@@ -152,14 +152,14 @@ TEST_CASE("a missing picture is reported once, with the place that uses it", "[e
     CHECK_THAT(told->note, ContainsSubstring("there is no such file"));
 }
 
-TEST_CASE("a strict conversion refuses what the file lacks, not what is only rendered differently", "[export]") {
+TEST_CASE("a strict conversion refuses losses in the file, not differences in rendering", "[export]") {
     Plugins plugins;
     Folder folder, out;
     const auto converted = [&](const std::string& text, const char* to) {
         write(folder.file("in.pbrt"), text);
         const auto scene = imported(folder.file("in.pbrt"), plugins);
         INFO(text);
-        CHECK_FALSE(io::refuse_losses(scene.report, "in.pbrt")); // each is another picture than pbrt's
+        CHECK_FALSE(io::refuse_losses(scene.report, "in.pbrt")); // each renders differently from pbrt
         const auto done = io::convert_strictly(scene, out.file("out.pbrt"), plugins.registry, version(to));
         CHECK(out.contents().count("out.pbrt") == (done ? 1u : 0u));
         std::filesystem::remove(out.file("out.pbrt"));

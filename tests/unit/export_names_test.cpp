@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pbrt cannot express survives in comments: names, nested groups, hidden things, inactive cameras; and
-// lights and curves as they were before the renderer reduced them.
+// Things pbrt cannot express survive in comments: names, nested groups, hidden things, inactive cameras; and
+// lights and curves as they were before reduction for the renderer.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/export.hpp"
@@ -20,7 +20,7 @@ using test::Everything, test::Folder, test::joined, test::Plugins, test::place, 
 
 namespace {
 
-// Everything, with names that are hard to keep: repeated with a number, quoted, of other alphabets, numbered by
+// Every kind of thing, with difficult names: repeated with a number, quoted, in other alphabets, numbered by
 // programs.
 Everything furnished(bool v4) {
     Everything made(v4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the export tests: the plugins that were built, a temporary folder, and a scene that holds
-// something of every kind.
+// Shared by the export tests: the built plugins, a temporary folder, and a scene with
+// every kind of thing.
 #pragma once
 
 #include "base/file.hpp"
@@ -20,7 +20,7 @@
 
 namespace restage::test {
 
-struct Plugins { // everything that was built
+struct Plugins { // all built plugins
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log, io::with_services()};
     Plugins() {
@@ -64,7 +64,7 @@ inline std::string joined(const std::vector<std::string>& lines) {
 
 glm::dmat4 place(double x, double turn, glm::dvec3 scale = glm::dvec3(1));
 
-// Something of every kind, with numbers that have no short decimal form.
+// Every kind of thing, with numbers that have no short decimal form.
 struct Everything {
     scene::Scene scene;
     template <class T>

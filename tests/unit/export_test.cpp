@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Round trips: what is written as pbrt (v4 and v3) and read again is the same scene; undo to the start writes the same
-// bytes; nothing is left behind by an export that fails.
+// Round trips through pbrt (v4 and v3) give the same scene; undo to the start writes the same bytes; a failed export
+// leaves no files.
 #include "io/export.hpp"
 #include "base/file.hpp"
 #include "document/session.hpp"
@@ -26,7 +26,7 @@ using namespace restage::scene;
 using Catch::Matchers::ContainsSubstring;
 using test::Everything, test::Folder, test::joined, test::Plugins, test::place, test::version;
 
-TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
+TEST_CASE("a scene with every kind of thing survives pbrt-v4 and v3", "[export]") {
     Plugins plugins;
     const char* v = GENERATE("v4", "v3");
     CAPTURE(v);
@@ -36,14 +36,14 @@ TEST_CASE("a scene of everything survives pbrt-v4 and v3", "[export]") {
     const auto report = io::export_scene(made.scene, folder.file("out.pbrt"), plugins.registry, version(v));
     REQUIRE(report);
     for (const auto& entry : report->entries)
-        FAIL_CHECK(io::to_string(entry)); // this scene holds nothing that the version lacks
+        FAIL_CHECK(io::to_string(entry)); // this scene contains nothing that the version lacks
     const auto again = io::import_scene(folder.file("out.pbrt"), plugins.registry);
     if (!again) FAIL(again.error().message);
     CHECK(again->scene.format == std::string("pbrt-") + v);
     for (const auto& entry : again->report.entries)
         if (entry.fate != io::Fate::kept) FAIL_CHECK(io::to_string(entry));
     CHECK(joined(io::structural_differences(made.scene, again->scene, plugins.registry)) == "");
-    // And once more: what was imported is written and read.
+    // Then a second round trip of the imported scene.
     Folder second;
     REQUIRE(io::export_scene(again->scene, second.file("out.pbrt"), plugins.registry, version(v)));
     const auto third = io::import_scene(second.file("out.pbrt"), plugins.registry);
@@ -117,7 +117,7 @@ TEST_CASE("undo to the start writes the same bytes", "[export]") {
 
     while (session.undo()) {
     }
-    CHECK(session.modified()); // the file holds the edits
+    CHECK(session.modified()); // the file contains the edits
     REQUIRE(session.export_to(after.file("s.pbrt")));
     CHECK(before.contents() == after.contents());
     while (session.redo()) {
@@ -171,7 +171,7 @@ Shape "cylinder" "float radius" [ 2 ] "float zmin" [ -3 ]
     CHECK_THAT(edited, ContainsSubstring("\"rgb eta\" [ 1 2 3 ]") && !ContainsSubstring("metal-Au-eta") &&
                            ContainsSubstring("metal-Au-k"));
     CHECK_THAT(edited, ContainsSubstring("\"string type\" [ \"coateddiffuse\" ]") && !ContainsSubstring("subsurface"));
-    const std::string other = text("v3"); // has no use for v4's lines, but shows them
+    const std::string other = text("v3"); // cannot use v4's lines, but shows them
     CHECK_THAT(other, ContainsSubstring("# Option \"disablepixeljitter\" true") &&
                           ContainsSubstring("\"string type\" [ \"metal\" ]"));
 }

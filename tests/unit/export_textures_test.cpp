@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures through pbrt files: each type is read by its table, and written by it when it was made here; what pbrt
-// cannot say is in the report.
+// Textures through pbrt files: each type is read by its table, and written by it if it was created here; losses are
+// reported.
 #include "export_scene.hpp"
 #include "io/import.hpp"
 #include "plugin/texture_source.hpp"
@@ -94,8 +94,7 @@ const Texture* named(const Scene& s, const std::string& name) {
 
 } // namespace
 
-TEST_CASE("every shipped type of texture that was made here is written to pbrt by its table and read back",
-          "[export]") {
+TEST_CASE("every shipped type of texture created here is written to pbrt by its table and read back", "[export]") {
     Plugins plugins;
     const std::string v = GENERATE("v4", "v3");
     const bool scalar = GENERATE(false, true);
@@ -158,7 +157,7 @@ TEST_CASE("every shipped type of texture that was made here is written to pbrt b
     }
 }
 
-TEST_CASE("every value of every type that pbrt knows is read by its table", "[pbrt]") {
+TEST_CASE("every value of every pbrt type is read by its table", "[pbrt]") {
     Plugins plugins;
     Folder folder;
     const auto head = std::string("Film \"rgb\"\nCamera \"perspective\"\nWorldBegin\nTransform [");
@@ -224,7 +223,7 @@ TEST_CASE("every value of every type that pbrt knows is read by its table", "[pb
     }
 }
 
-TEST_CASE("what pbrt cannot say of a texture is in the report", "[export]") {
+TEST_CASE("losses of textures in pbrt are reported", "[export]") {
     Plugins plugins;
     Folder folder;
     Scene s = made_here(plugins, false);
@@ -248,7 +247,7 @@ TEST_CASE("what pbrt cannot say of a texture is in the report", "[export]") {
     for (const io::ReportEntry& e : report->entries)
         if (e.fate == io::Fate::approximated) said[e.what] += e.note;
     CHECK_THAT(said["texture \"made dots\" (of a plugin)"], ContainsSubstring("has no such texture"));
-    CHECK_THAT(said["texture \"made checkerboard\""], ContainsSubstring("rotation is left out"));
+    CHECK_THAT(said["texture \"made checkerboard\""], ContainsSubstring("rotation is dropped"));
     CHECK_THAT(said["texture \"made bilerp\""], ContainsSubstring("second texture coordinates"));
     CHECK_THAT(said["texture \"made imagemap\""], ContainsSubstring("has no image"));
     CHECK_THAT(said["texture \"made fbm\""], ContainsSubstring("in a plane"));

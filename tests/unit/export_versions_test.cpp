@@ -92,7 +92,7 @@ TEST_CASE("texture filtering settings are no loss", "[export]") {
     CHECK(v4.report == "");
 }
 
-TEST_CASE("a product of two colours stays one", "[export]") {
+TEST_CASE("a product of two colours is preserved", "[export]") {
     Plugins plugins;
     const auto v4 = converted(plugins,
                               "Film \"image\"\nWorldBegin\nTexture \"s\" \"color\" \"scale\" \"rgb tex1\" [.5 .25 1]\n"

@@ -64,9 +64,9 @@ TEST_CASE("exposure: lamps in lux and candela are metered, the same every time",
     CHECK(opened(files, usual).report.entries == opened(files, usual).report.entries);
 }
 
-TEST_CASE("exposure: lamps that light nothing get a studio, closed rooms a lamp", "[exposure]") {
+TEST_CASE("exposure: scenes with ineffective lamps get a studio, closed rooms a lamp", "[exposure]") {
     ModelFiles files;
-    Floor below; // the lamp shines on the floor's back
+    Floor below; // the lamp lights the floor's back
     below.lamp("point", 100, {0, -1, 0});
     auto in = opened(files, below);
     CHECK(in.scene.environment.value);
@@ -103,7 +103,7 @@ TEST_CASE("exposure: scenes of other formats are unchanged; those without light 
                 "Translate 0 0 5\nShape \"sphere\"\n");
     in = opened(files, "bright.pbrt");
     CHECK(in.scene.film.value.exposure == 1);
-    // What the button does.
+    // As by the button.
     in = opened(files, "dark.pbrt");
     scene::apply(in.scene, document::light_studio(in.scene, files.registry));
     CHECK(in.scene.environment.value);
@@ -111,7 +111,7 @@ TEST_CASE("exposure: scenes of other formats are unchanged; those without light 
     CHECK(document::read_light(in.scene, files.registry).lit > 0.9);
 }
 
-TEST_CASE("exposure: the light of a spot is metered with the fading it has", "[exposure]") {
+TEST_CASE("exposure: a spot is metered with its own falloff", "[exposure]") {
     // A floor of 6 x 6 from 4 above, wholly within the fading edge of a spot where the camera is: over so wide an edge
     // t^4 is darker than t^2 (3 - 2t), everywhere.
     const auto reading = [](scene::Falloff falloff) {

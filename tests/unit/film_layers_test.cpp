@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every layer that a film has is shown, written, read and merged, without being named elsewhere.
+// Every layer of a film is shown, written, read and merged, without being named elsewhere.
 #include "render/film_layers.hpp"
 #include "render/tracers.hpp"
 #include "temporary_folder.hpp"
@@ -18,7 +18,7 @@ using render::FilmImage;
 
 namespace {
 
-// Other values in each layer and pixel; errors that two samples can have.
+// Different values in each layer and pixel; errors that are possible with two samples.
 FilmImage numbered(float first) {
     FilmImage image = FilmImage::blank(3, 2);
     image.samples = 2;
@@ -32,7 +32,7 @@ FilmImage numbered(float first) {
 
 } // namespace
 
-TEST_CASE("layers of a film come back from a file") {
+TEST_CASE("layers of a film survive a file") {
     const test::TemporaryFolder folder;
     const std::string path = (folder.path() / "all.exr").string();
     const FilmImage image = numbered(1);

@@ -14,7 +14,7 @@ TEST_CASE("gltf: a triangle, with v upwards and a camera for a right-handed worl
     const auto& mesh = *in.scene.meshes[thing(in).mesh].data;
     REQUIRE(mesh.positions.size() == 3);
     CHECK(mesh.normals[0] == glm::vec3(0, 0, 1));
-    CHECK(mesh.uvs[0] == glm::vec2(0, 1)); // glTF counts from the top
+    CHECK(mesh.uvs[0] == glm::vec2(0, 1)); // glTF's v starts at the top
     CHECK(mesh.uvs[2] == glm::vec2(0, 0));
     const auto& material = in.scene.materials[thing(in).material];
     CHECK(material.type == "principled");
@@ -36,14 +36,14 @@ TEST_CASE("gltf: nodes become groups, and a mesh used twice is stored once", "[g
     REQUIRE(in.scene.groups.live() == 1);
     CHECK(in.scene.groups[{1}].name == "both");
     CHECK(thing(in, "left").group.value == 1);
-    const glm::dvec4 at = thing(in, "left").object_to_world[3]; // turned by 90 degrees about z
+    const glm::dvec4 at = thing(in, "left").object_to_world[3]; // rotated by 90 degrees about z
     CHECK(at.x == Approx(-2));
     CHECK(at.y == Approx(1));
     CHECK(at.z == Approx(3));
     CHECK(glm::determinant(glm::dmat3(thing(in, "right").object_to_world)) == Approx(-1));
 }
 
-TEST_CASE("gltf: integers are normalised, strides kept, sparse values put in", "[gltf]") {
+TEST_CASE("gltf: integers are normalised, strides respected, sparse values applied", "[gltf]") {
     ModelFiles files;
     Builder b;
     const int positions =
@@ -59,10 +59,10 @@ TEST_CASE("gltf: integers are normalised, strides kept, sparse values put in", "
     const auto& mesh = *in.scene.meshes[thing(in).mesh].data;
     CHECK(mesh.positions[1] == glm::vec3(1, 0, 0));
     CHECK(mesh.positions[2] == glm::vec3(0, 1, 0));
-    CHECK(mesh.normals.empty()); // flat, as glTF asks
+    CHECK(mesh.normals.empty()); // flat, as required by glTF
 }
 
-TEST_CASE("gltf: strips and fans keep their sides", "[gltf]") {
+TEST_CASE("gltf: strips and fans keep their orientation", "[gltf]") {
     ModelFiles files;
     for (const int mode : {5, 6}) {
         Builder b;
@@ -125,7 +125,7 @@ TEST_CASE("gltf: material extensions reach the principled material", "[gltf]") {
     CHECK(p.number("anisotropy_rotation", -1) == Approx(90));
     CHECK(p.number("iridescence", -1) == Approx(0.75));
     CHECK(p.number("iridescence_ior", -1) == Approx(1.8));
-    CHECK(p.number("iridescence_thickness", -1) == Approx(550)); // without a texture the maximum holds
+    CHECK(p.number("iridescence_thickness", -1) == Approx(550)); // without a texture the maximum applies
     CHECK(says(in, io::Fate::dropped, "a.gltf", "KHR_materials_dispersion"));
     CHECK_FALSE(says(in, io::Fate::dropped, "a.gltf", "sheen"));
 }
@@ -229,5 +229,5 @@ TEST_CASE("gltf: errors name things by their glTF index", "[gltf]") {
     files.write("a.gltf", "{\n  \"asset\": {\"version\": \"2.0\"},\n  nodes\n}\n");
     CHECK_THAT(files.error("a.gltf"), ContainsSubstring("a.gltf:3:4: "));
     files.write("a.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12) + std::string(20, '\0'));
-    CHECK_THAT(files.error("a.glb"), ContainsSubstring("byte 8: the file is cut: 255 bytes promised, 32 found"));
+    CHECK_THAT(files.error("a.glb"), ContainsSubstring("byte 8: the file is cut: 255 bytes declared, 32 found"));
 }

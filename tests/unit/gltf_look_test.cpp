@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a glTF file looks like: tangents, texture coordinates, vertex colours, emission, visibility; and what it may
-// use (extensions, scenes, names of files, lengths of buffers).
+// Appearance of glTF files: tangents, texture coordinates, vertex colours, emission, visibility; and allowed
+// variations (extensions, scenes, file names, lengths of buffers).
 #include "document/exposure.hpp"
 #include "document/session.hpp"
 #include "gltf_builder.hpp"
@@ -57,7 +57,7 @@ const scene::Texture& texture_of(const io::ImportedScene& in, const scene::Param
 
 } // namespace
 
-TEST_CASE("gltf: tangents follow uv, and their sign is that of mirrored ones", "[gltf]") {
+TEST_CASE("gltf: tangents follow uv, and their sign is that of the mirroring", "[gltf]") {
     ModelFiles files;
     for (const bool mirrored : {false, true}) {
         Square b(mirrored);
@@ -72,7 +72,7 @@ TEST_CASE("gltf: tangents follow uv, and their sign is that of mirrored ones", "
     CHECK(mesh_of(plain.load(files)).tangents.empty());
 }
 
-TEST_CASE("gltf: TANGENT is kept, and turned with the skin", "[gltf]") {
+TEST_CASE("gltf: TANGENT is kept, and rotated with the skin", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["normalTexture"] = texture();
@@ -130,7 +130,7 @@ TEST_CASE("gltf: a rotated normal map rotates its tangents", "[gltf]") {
     CHECK(in.report.count(io::Fate::approximated) == 0);
 }
 
-TEST_CASE("gltf: textures lie on their own sets of texture coordinates", "[gltf]") {
+TEST_CASE("gltf: textures use their own sets of texture coordinates", "[gltf]") {
     ModelFiles files;
     Square b;
     b.attributes()["TEXCOORD_1"] = b.floats({0.5f, 0, 0.5f, 0, 0.5f, 0, 0.5f, 0}, "VEC2", 2);
@@ -168,7 +168,7 @@ TEST_CASE("gltf: vertex colours multiply a texture, and their alpha is coverage"
     CHECK(colors.params.number("uvset", 0) == 1);
     const auto& mesh = mesh_of(in);
     REQUIRE(mesh.uvs2.size() == 6);
-    CHECK(mesh.uvs[1] == glm::vec2(1, 0)); // where the picture lies has not changed
+    CHECK(mesh.uvs[1] == glm::vec2(1, 0)); // the placement of the picture has not changed
     const auto& image = *in.scene.images[colors.image].data;
     const auto texel = [](const scene::PixelData& p, glm::vec2 uv) {
         const auto x = std::size_t(uv.x * float(p.width)), y = std::size_t((1 - uv.y) * float(p.height));
@@ -201,7 +201,7 @@ TEST_CASE("gltf: a uniform alpha of vertex colours becomes the object's", "[gltf
     CHECK(thing(b.load(files)).alpha == 1);
 }
 
-TEST_CASE("gltf: an emissive picture emits as a picture, over its material", "[gltf]") {
+TEST_CASE("gltf: an emissive texture emits as a texture, on top of its material", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["pbrMetallicRoughness"]["baseColorFactor"] = {0.1, 0.2, 0.3, 1};
@@ -221,7 +221,7 @@ TEST_CASE("gltf: an emissive picture emits as a picture, over its material", "[g
     REQUIRE(shines);
     CHECK(shines->radiance == glm::vec3(4));
     CHECK_FALSE(shines->two_sided);
-    // pbrt has one colour: the mean, and a line that says so.
+    // pbrt has one colour: the mean, with a report line.
     document::Session session(files.registry);
     session.adopt(in.scene);
     const auto report = session.export_to(files.path("out.pbrt"));
@@ -239,7 +239,7 @@ TEST_CASE("gltf: an emissive picture emits as a picture, over its material", "[g
     CHECK(says(dark, io::Fate::dropped, "", "none.png"));
 }
 
-TEST_CASE("gltf: unlit pictures show their colours", "[gltf]") {
+TEST_CASE("gltf: unlit textures show their colours", "[gltf]") {
     ModelFiles files;
     Square b;
     b.material()["extensions"]["KHR_materials_unlit"] = json::object();
@@ -317,8 +317,8 @@ TEST_CASE("gltf: nodes that are not visible are hidden objects", "[gltf]") {
     b.root["nodes"].push_back({{"mesh", 0}, {"name", "other"}});
     const auto in = b.load(files);
     CHECK_FALSE(thing(in).hidden);
-    CHECK(thing(in, "other").hidden); // as what is above it
-    CHECK(in.scene.cameras[{1}].camera_to_world[3].x < 50); // it looks at what is seen
+    CHECK(thing(in, "other").hidden); // like its parent
+    CHECK(in.scene.cameras[{1}].camera_to_world[3].x < 50); // it looks at the visible objects
     b.root["nodes"][0]["extensions"] = {{"KHR_node_visibility", {{"visible", false}}}};
     CHECK(thing(b.load(files)).hidden);
 }
@@ -337,7 +337,7 @@ TEST_CASE("gltf: a light whose node is not visible is switched off", "[gltf]") {
     const auto off = b.load(files);
     REQUIRE(off.scene.lights.live() == 1);
     CHECK(off.scene.lights[{1}].hidden);
-    CHECK(off.scene.environment.value); // the studio: nothing else shines
+    CHECK(off.scene.environment.value); // the studio: nothing else emits light
 }
 
 TEST_CASE("gltf: unknown extensions are refused if required, else reported", "[gltf]") {
@@ -363,7 +363,7 @@ TEST_CASE("gltf: without scenes the root nodes are shown", "[gltf]") {
     CHECK(b.load(files).scene.instances.live() == 1); // the first non-empty one
 }
 
-TEST_CASE("gltf: a buffer's file may be longer, and has any name", "[gltf]") {
+TEST_CASE("gltf: a buffer's file may be longer, and have any name", "[gltf]") {
     ModelFiles files;
     Builder b;
     const auto with = [&](const char* uri, const char* name, std::size_t more) {

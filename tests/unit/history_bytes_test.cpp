@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes that the history counts: all that has a length of its own in whatever an edit holds. The fields are those
-// of project files (document/project_fields.hpp), so that one that is added there and not counted fails here.
+// The bytes counted by the history: everything of variable length in an edit. The fields are those of project files
+// (document/project_fields.hpp), so that a field added there but not counted fails here.
 #include "document/project_fields.hpp"
 #include "scene/edit.hpp"
 #include "scene/history.hpp"
@@ -29,7 +29,7 @@ struct Fill {
         field.values.push_back({text(), text()});
     }
     template <class T>
-    void operator()(const char*, T&) {} // as large as it is
+    void operator()(const char*, T&) {} // its size
     void path(const char*, std::string& field) { field = text(); }
     template <class T>
     void mesh(T&) {} // shared, and counted once (scene_history_test.cpp)
@@ -37,7 +37,7 @@ struct Fill {
     void image(T&) {}
 };
 
-// What a history holds of one edit that brings the item.
+// The bytes in a history with one edit that inserts the item.
 std::size_t held(AnyChange change) {
     Scene scene;
     History history;
@@ -49,7 +49,7 @@ std::size_t held(AnyChange change) {
 
 } // namespace
 
-TEST_CASE("whatever has a length of its own is among the bytes of the history", "[scene]") {
+TEST_CASE("everything of variable length is counted in the bytes of the history", "[scene]") {
     std::size_t kinds_seen = 0;
     each_kind([&]<class T>(const Kind<T>& kind) {
         T item{};

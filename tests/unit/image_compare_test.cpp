@@ -82,7 +82,7 @@ TEST_CASE("image_compare: fireflies clip alike in both") {
     CHECK(b.values[301] == Approx(b.values[300]));
     CHECK(b.values[302] == Approx(b.values[300] / 500));
 
-    // A lamp that fills more than the share stays as it is.
+    // A lamp larger than the clipped fraction is unchanged.
     auto lamp = flat(50, 40, {1, 1, 1}), same = lamp;
     for (int i = 0; i < 3 * 100; ++i)
         lamp.values[i] = same.values[i] = 40;
@@ -116,7 +116,7 @@ TEST_CASE("image_compare: z-test passes equal pictures and finds a bias smaller 
     CHECK(biased->share_passing < 0.3);
     CHECK_FALSE(biased->family_passes);
 
-    // One bad block among many: invisible to the share, not to the family test.
+    // One bad block among many: not detected by the fraction, but by the test of all blocks.
     auto spot = noisy(1, 0.3f);
     for (unsigned y = 16; y < 24; ++y)
         for (unsigned x = 16; x < 24; ++x)
@@ -128,7 +128,7 @@ TEST_CASE("image_compare: z-test passes equal pictures and finds a bias smaller 
     CHECK(std::abs(one->z[2 * 13 + 2]) > 5);
 }
 
-TEST_CASE("image_compare: z-test by hand, and without noise") {
+TEST_CASE("image_compare: z-test in closed form, and without noise") {
     io::Estimate a{.width = 2, .height = 1, .luminance = {3, 5}, .variance = {0.25f, 0.5f}}, b = a;
     b.luminance = {2, 4};
     b.variance = {0.25f, 0};
@@ -151,7 +151,7 @@ TEST_CASE("image_compare: two halves give their own variance") {
     for (std::size_t i = 0; i < truth.luminance.size(); ++i) {
         const float sigma = 0.2f * (0.1f + truth.luminance[i]);
         ratio +=
-            reference->variance[i] / (sigma * sigma / 2) * truth.luminance[i] / 6000; // weight down the dark blocks
+            reference->variance[i] / (sigma * sigma / 2) * truth.luminance[i] / 6000; // dark blocks have less weight
     }
     CHECK(ratio == Approx(1).margin(0.15));
     const auto test = io::z_test(noisy(5, 0.3f), *reference);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Denoiser plugins: every installed one improves a noisy picture and reports progress; oidn without its library
-// says so. The library is fetched by tools/setup, so its absence is a failure here, not a reason to skip.
+// reports it. The library is fetched by tools/setup, so its absence is a failure here, not a reason to skip.
 #include "image_test_files.hpp"
 #include "io/services.hpp"
 #include "paths.hpp"
@@ -20,7 +20,7 @@ namespace {
 constexpr unsigned width = 160, height = 96;
 
 struct Pictures {
-    std::vector<float> truth, noisy, albedo, normal; // 3 a pixel
+    std::vector<float> truth, noisy, albedo, normal; // 3 per pixel
 };
 
 // A checkered floor under a soft light, with noise as of few samples (exponential, so the mean is right).
@@ -123,7 +123,7 @@ TEST_CASE("denoiser: every plugin lowers the error of a noisy picture, with guid
     }
 }
 
-TEST_CASE("denoiser: output may be the input, normals may come alone") {
+TEST_CASE("denoiser: output may be the input, normals may be the only guide") {
     Plugins plugins;
     const Pictures p = make_pictures();
     std::vector<float> apart(p.noisy.size()), in_place = p.noisy;
@@ -189,6 +189,6 @@ TEST_CASE("denoiser: oidn without its library is unavailable and says why") {
         REQUIRE_FALSE(done);
         CHECK(done.error().message.find("not found") != std::string::npos);
     }
-    Plugins again; // the answer is not remembered beyond the plugin's life
+    Plugins again; // the result is not cached after the plugin is unloaded
     CHECK(again.oidn().available());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EXR: layers and metadata come back as they went in; the files of other programs (tiles, parts, luminance) are read.
+// EXR: layers and metadata survive a round trip; the files of other programs (tiles, parts, luminance) are read.
 #include "base/file.hpp"
 #include "image_test_files.hpp"
 #include "io/exr.hpp"
@@ -39,7 +39,7 @@ io::ExrImage render() {
     std::vector<std::uint32_t> ids(2 * width * height);
     for (std::uint32_t i = 0; i < ids.size(); ++i)
         ids[i] = i % 2 ? 0xfffffff0u + i % 7 : i;
-    // In the order a reader gives: alphabetical by full channel name.
+    // In a reader's order: alphabetical by full channel name.
     image.layers = {{.name = "", .channels = {"R", "G", "B"}, .values = ramp(3, 1e-7f)},
                     {.name = "albedo", .channels = {"R", "G", "B"}, .type = io::ExrType::half, .values = ramp(3, 0)},
                     {.name = "depth", .channels = {"Z"}, .values = ramp(1, 1e9f)},
@@ -52,7 +52,7 @@ io::ExrImage render() {
 
 } // namespace
 
-TEST_CASE("exr: layers, types and metadata come back exactly") {
+TEST_CASE("exr: layers, types and metadata survive a round trip exactly") {
     const auto compression = GENERATE(io::ExrCompression::none, io::ExrCompression::zip, io::ExrCompression::piz);
     const TemporaryFolder folder;
     const auto image = render();
@@ -190,7 +190,7 @@ TEST_CASE("exr: luminance with subsampled chroma becomes RGB") {
     CHECK_FALSE(io::read_exr(path)); // as layers it is refused
 }
 
-TEST_CASE("exr: unwritable images are refused, and the old file stays") {
+TEST_CASE("exr: unwritable images are refused, and the old file is kept") {
     const TemporaryFolder folder;
     const auto good = render();
     REQUIRE(io::write_exr(folder / "a.exr", good));

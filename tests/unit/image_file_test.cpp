@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Image files: each format returns the stored numbers, and a file that lies or ends early gives an error.
+// Image files: each format returns the stored numbers, and an inconsistent or truncated file gives an error.
 #include "io/image_file.hpp"
 #include "io/image_file_codecs.hpp"
 
@@ -47,7 +47,7 @@ TEST_CASE("image_file: the sRGB curve is the piecewise one") {
     CHECK(io::linear_to_srgb(std::nanf("")) == 0);
 }
 
-TEST_CASE("image_file: every lossless 8-bit format holds its texels, row 0 on top") {
+TEST_CASE("image_file: every lossless 8-bit format keeps its texels, row 0 on top") {
     const std::string name =
         GENERATE("rgb8.png", "rgba8.png", "palette.png", "rgb16.png", "rgb24.bmp", "rgb24.tga", "rgb24_rle.tga",
                  "rgba32_rle.tga", "rgb16.tga", "interlaced.png", "gamma.png", "rgb8.webp", "rgba8.webp");
@@ -70,7 +70,7 @@ TEST_CASE("image_file: every lossless 8-bit format holds its texels, row 0 on to
     }
 }
 
-TEST_CASE("image_file: JPG within its loss") {
+TEST_CASE("image_file: JPG up to its loss") {
     for (const char* name : {"baseline.jpg", "progressive.jpg"}) {
         CAPTURE(name);
         const auto image = io::read_image(data_image(name), scene::Encoding::linear);
@@ -85,7 +85,7 @@ TEST_CASE("image_file: JPG within its loss") {
     CHECK(distance(texel(*grey, 3, 3), {luma, luma, luma}) <= 2);
 }
 
-TEST_CASE("image_file: all bits of a number are kept, and few bits are spread over the range") {
+TEST_CASE("image_file: all bits of a value are kept, and low bit depths are scaled to the range") {
     const auto wide = io::read_image(data_image("grey16.png"), scene::Encoding::linear);
     REQUIRE(wide);
     REQUIRE(wide->channels == 1);
@@ -120,7 +120,7 @@ TEST_CASE("image_file: CMYK inks become transmitted light, Adobe's inverted ones
     CHECK(distance(texel(*plain, 3, 3), {0, 0, 0}) <= 3);
 }
 
-TEST_CASE("image_file: a large picture of one colour takes few bytes, and is whole") {
+TEST_CASE("image_file: a large picture of one colour takes few bytes, and is complete") {
     const auto solid = io::read_image(data_image("solid1.png"), scene::Encoding::linear);
     REQUIRE(solid);
     CHECK(solid->width == 2048);
@@ -128,7 +128,7 @@ TEST_CASE("image_file: a large picture of one colour takes few bytes, and is who
     CHECK(distance(texel(*solid, 2047, 2047), {200, 100, 50}) < 1e-3);
 }
 
-TEST_CASE("image_file: damage that leaves a picture is a warning") {
+TEST_CASE("image_file: damage that leaves a usable picture is a warning") {
     const TemporaryFolder folder;
     auto bytes = read_file(data_image("baseline.jpg"));
     REQUIRE(bytes);
@@ -156,7 +156,7 @@ TEST_CASE("image_file: encoding applies to colour, never to alpha") {
     CHECK(grey->values[3] == Approx(128 / 255.f));
 }
 
-TEST_CASE("image_file: the header alone") {
+TEST_CASE("image_file: only the header") {
     const auto header = io::read_image_header(data_image("grey_alpha8.png"));
     REQUIRE(header);
     CHECK(header->width == 16);
@@ -165,7 +165,7 @@ TEST_CASE("image_file: the header alone") {
     CHECK(header->values.empty());
 }
 
-TEST_CASE("image_file: PNG holds all 256 levels, and exposure is a power of two") {
+TEST_CASE("image_file: PNG keeps all 256 levels, and exposure is a power of two") {
     const TemporaryFolder folder;
     scene::PixelData ramp{.width = 256, .height = 1, .channels = 1};
     for (int i = 0; i < 256; ++i)
@@ -186,7 +186,7 @@ TEST_CASE("image_file: PNG holds all 256 levels, and exposure is a power of two"
     CHECK(exposed->values[3] == Approx(0.5f).margin(0.003)); // alpha is not exposed
 }
 
-TEST_CASE("image_file: a JPG that is written comes back within its loss, colour as sharp as brightness") {
+TEST_CASE("image_file: a written JPG is the same up to its loss, without chroma subsampling") {
     const TemporaryFolder folder;
     scene::PixelData image{.width = 33, .height = 17, .channels = 4}; // red and green columns, half transparent
     for (std::size_t i = 0; i < 33 * 17; ++i)
@@ -242,7 +242,7 @@ TEST_CASE("image_file: HDR keeps 1 % over 12 orders of magnitude") {
         CHECK(back->values[i] == Approx(image.values[i]).epsilon(0.01));
 }
 
-TEST_CASE("image_file: HDR with plain texels, old runs and other orders of rows") {
+TEST_CASE("image_file: HDR with plain texels, old run-length coding and other row orders") {
     const TemporaryFolder folder;
     const auto read = [&](const std::string& resolution, const std::string& texels) {
         REQUIRE(write_file_atomic(folder / "a.hdr",
@@ -287,7 +287,7 @@ TEST_CASE("image_file: NaN and infinity are replaced and counted") {
     CHECK(warning.empty());
 }
 
-TEST_CASE("image_file: a file cut anywhere is an error that names it") {
+TEST_CASE("image_file: a truncated file is an error that names it") {
     const TemporaryFolder folder;
     const scene::PixelData image{
         .width = 16, .height = 8, .channels = 3, .values = std::vector<float>(16 * 8 * 3, 0.5f)};
@@ -305,7 +305,8 @@ TEST_CASE("image_file: a file cut anywhere is an error that names it") {
     REQUIRE(io::read_image(path, scene::Encoding::linear));
     const std::string cut = folder / "cut";
     for (std::size_t size = 0; size < whole->size(); ++size) {
-        // TGA files of Pillow end in a 26-byte footer, PNG in a checksum: nothing of the picture is lost there.
+        // TGA files of Pillow end in a 26-byte footer, PNG in a checksum: truncating these loses nothing of the
+        // picture.
         if (path.ends_with(".tga") && size >= whole->size() - 26) break;
         if (path.ends_with(".png") && size >= whole->size() - 4) break;
         std::ofstream(cut, std::ios::binary).write(whole->data(), static_cast<std::streamsize>(size));
@@ -343,7 +344,7 @@ TEST_CASE("image_file: implausible sizes are refused before memory is allocated"
     CHECK_FALSE(io::read_image(folder / "absent.png", scene::Encoding::linear));
 }
 
-TEST_CASE("image_file: write_image goes by the extension") {
+TEST_CASE("image_file: write_image selects the format by the extension") {
     const TemporaryFolder folder;
     const scene::PixelData image{.width = 2, .height = 1, .channels = 3, .values = {0, 0.25f, 1, 0.5f, 0.5f, 0.5f}};
     for (const char* name : {"a.PNG", "a.pfm", "a.hdr", "a.exr"}) {

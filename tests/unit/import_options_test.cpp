@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of importers: refused by name, units and axes by closed form, merging keeps every triangle, and defaults
-// change nothing.
+// Options of importers: refused by name; units and axes in closed form; merging keeps every triangle; defaults change
+// nothing.
 #include "gltf_builder.hpp"
 #include "io/options.hpp"
 #include "scene/bounds.hpp"
@@ -43,7 +43,7 @@ bool same(const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) 
 
 } // namespace
 
-TEST_CASE("units and axes place what a file holds", "[options]") {
+TEST_CASE("units and axes transform the contents of a file", "[options]") {
     Files files;
     for (const char* file : {"t.ply", "t.obj", "t.stl"}) {
         INFO(file);
@@ -56,7 +56,7 @@ TEST_CASE("units and axes place what a file holds", "[options]") {
         for (const auto& [unit, metres] :
              {std::pair("mm", 0.001), {"cm", 0.01}, {"m", 1.}, {"in", 0.0254}, {"ft", 0.3048}})
             CHECK(same(bounds({std::string("units=") + unit}).upper, glm::dvec3(1, 2, 3) * metres));
-        // z becomes y, and y goes away from the viewer: (x, y, z) -> (x, z, -y).
+        // z becomes y, and y points away from the viewer: (x, y, z) -> (x, z, -y).
         CHECK(same(bounds({"up=z"}).lower, {0, 0, -2}));
         CHECK(same(bounds({"up=z"}).upper, {1, 3, 0}));
         CHECK(same(bounds({"up=y"}).upper, plain.upper));
@@ -64,18 +64,18 @@ TEST_CASE("units and axes place what a file holds", "[options]") {
     }
 }
 
-TEST_CASE("a file whose z is up stands upright in a scene whose y is", "[options]") {
+TEST_CASE("a z-up file stands upright in a y-up scene", "[options]") {
     Files files;
     const auto sky_up = [](const io::ImportedScene& in) {
         return glm::dvec3(in.scene.environment.value->light_to_world[2]); // of a panorama
     };
-    CHECK(same(sky_up(files.load("t.stl")), {0, 0, 1})); // as it is
+    CHECK(same(sky_up(files.load("t.stl")), {0, 0, 1})); // as in the file
     CHECK(same(sky_up(files.with("t.stl", {"up=z"})), {0, 1, 0}));
     CHECK(same(sky_up(files.with("t.stl", {"up=y"})), {0, 1, 0}));
     CHECK(same(sky_up(files.load("t.obj")), {0, 1, 0}));
 }
 
-TEST_CASE("the defaults of every option read a file as no option does", "[options]") {
+TEST_CASE("the defaults of all options read a file as without options", "[options]") {
     Files files;
     for (const char* file : {"t.ply", "t.obj", "t.stl"}) {
         const auto plain = files.load(file), same = files.with(file, {"units=as_is", "up=as_is"});
@@ -88,7 +88,7 @@ TEST_CASE("the defaults of every option read a file as no option does", "[option
     }
 }
 
-TEST_CASE("merging makes one object of each material", "[options]") {
+TEST_CASE("merging gives one object per material", "[options]") {
     Files files;
     files.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
     files.write("m.obj",
@@ -119,7 +119,7 @@ TEST_CASE("merging makes one object of each material", "[options]") {
     CHECK(std::abs(area - 1.5) < 1e-6);
 }
 
-TEST_CASE("options that an importer does not have are refused", "[options]") {
+TEST_CASE("unknown options of an importer are refused", "[options]") {
     Files files;
     scene::ParamSet values;
     const auto importer = files.registry.find_importer("mesh");
@@ -128,7 +128,7 @@ TEST_CASE("options that an importer does not have are refused", "[options]") {
         return set ? std::string() : set.error().message;
     };
     CHECK_THAT(refusal("merge=true"),
-               ContainsSubstring("importer \"mesh\": there is no option \"merge\"; there are: units="));
+               ContainsSubstring("importer \"mesh\": there is no option \"merge\"; known: units="));
     CHECK_THAT(refusal("up=x"), ContainsSubstring("option \"up\" cannot be \"x\"; as_is|y|z are possible"));
     CHECK_THAT(refusal("up"), ContainsSubstring("write name=value"));
     io::ImportOptions options;
@@ -138,7 +138,7 @@ TEST_CASE("options that an importer does not have are refused", "[options]") {
     CHECK_THAT(in.error().message, ContainsSubstring("there is no option \"height\""));
 }
 
-TEST_CASE("text and whole numbers stand for what an option takes, and nothing else does", "[options]") {
+TEST_CASE("text and whole numbers are accepted for an option's type, and nothing else is", "[options]") {
     model::Importer importer{.format = "x", .label = "X", .extensions = {}, .options = {}};
     importer.options = {{.id = "scale", .type = model::ParamType::number, .min = 0, .max = 10, .def = {1}},
                         {.id = "count", .type = model::ParamType::integer, .int_min = 0, .int_max = 9},
@@ -169,7 +169,7 @@ TEST_CASE("text and whole numbers stand for what an option takes, and nothing el
         INFO(id);
         CHECK_THAT(fits(id, value),
                    ContainsSubstring("refused: importer \"x\": option \"" + std::string(id) + "\" cannot be ") &&
-                       ContainsSubstring("there are: scale=NUMBER, count=WHOLE NUMBER, "
+                       ContainsSubstring("known: scale=NUMBER, count=WHOLE NUMBER, "
                                          "merge=true|false, up=y|z, scene=TEXT"));
     }
     CHECK_THAT(fits("scale", text("11")), ContainsSubstring("out of its range"));
@@ -199,7 +199,7 @@ tests::Builder model_in_units() {
 
 } // namespace
 
-TEST_CASE("gltf: units and the axis that is up place objects, cameras and media", "[options][gltf]") {
+TEST_CASE("gltf: units and the up axis transform objects, cameras and media", "[options][gltf]") {
     Files files;
     tests::Builder b = model_in_units();
     files.write("m.gltf", b.text());
@@ -234,9 +234,9 @@ TEST_CASE("gltf: units and the axis that is up place objects, cameras and media"
     CHECK(near(glm::dvec3(eye(small).camera_to_world[3]), {0, 0, 0.1}));
     for (int k = 0; k < 4; ++k) {
         CHECK(std::abs(double(window(small)[k]) - double(window(plain)[k]) * 0.01) < 1e-8);
-        CHECK(std::abs(glm::length(glm::dvec3(eye(small).camera_to_world[k % 3])) - 1) < 1e-9); // no scale in it
+        CHECK(std::abs(glm::length(glm::dvec3(eye(small).camera_to_world[k % 3])) - 1) < 1e-9); // without scale
     }
-    CHECK(std::abs(sigma(small) - std::log(2.0) / 0.05) < 1e-4); // the same light comes through
+    CHECK(std::abs(sigma(small) - std::log(2.0) / 0.05) < 1e-4); // the transmission is unchanged
 
     // (x, y, z) -> (x, z, -y), after the unit.
     const scene::Bounds up = scene::world_bounds(turned.scene);
@@ -269,7 +269,7 @@ TEST_CASE("gltf: one of several scenes is chosen by its name or number", "[optio
     CHECK(names(read("1")) == "day ");
     CHECK(names(read("2")) == "night ");
     CHECK(names(read("2 of them")) == "night two ");
-    CHECK(tests::says(*read("2"), io::Fate::dropped, "scene \"Day\"", "another one was asked for"));
+    CHECK(tests::says(*read("2"), io::Fate::dropped, "scene \"Day\"", "another one was requested"));
     for (const char* none : {"0", "4", "day", "2.0", "-1"}) {
         const auto in = read(none);
         REQUIRE(!in);

@@ -49,7 +49,7 @@ struct TestImporter { // a registry with the importer and the material of tests/
     }
 };
 
-struct Pushed { // a writer and a sound triangle to push
+struct Pushed { // a writer and a valid triangle to push
     Log log{[](LogLevel, std::string_view) {}};
     plugin::Registry registry{log};
     SceneWriter writer{registry, {}};
@@ -154,7 +154,7 @@ TEST_CASE("an importer's data arrives unchanged", "[io]") {
     CHECK(s.active_camera.value.value == 1);
     CHECK(p.writer.report.entries.empty());
 
-    // And the reader hands out the same again.
+    // And the reader returns the same.
     SceneReader reader(s, p.registry, {});
     const RestageSceneReader1& in = reader.table();
     CHECK(in.count(in.ctx, RESTAGE_KIND_INSTANCE) == 1);
@@ -257,7 +257,7 @@ TEST_CASE("invalid data is refused with a line in the report", "[io]") {
     CHECK(scene::validate(p.writer.scene).empty());
 }
 
-TEST_CASE("an absurd film fails the import, not the machine", "[io]") {
+TEST_CASE("an extreme film fails the import, not the machine", "[io]") {
     Pushed p;
     const RestageFilm film{.width = 4000000,
                            .height = 4000000,
@@ -279,7 +279,7 @@ TEST_CASE("only the first error is shown, with its place", "[io]") {
     CHECK(p.writer.error() == "a.pbrt:41:3: unclosed bracket");
 }
 
-TEST_CASE("a missing image is reported and the rest goes on; one file is one image", "[io]") {
+TEST_CASE("a missing image is reported and import continues; one file is one image", "[io]") {
     Pushed p;
     const test::TemporaryFolder folder;
     const std::string there = (folder / "gray.pfm").string();
@@ -315,7 +315,7 @@ TEST_CASE("export options are checked against the exporter's table", "[io]") {
     CHECK_THAT(set_option(exporter, "version=v5", values).error().message,
                ContainsSubstring("cannot be \"v5\"; v4|v3 are possible"));
     CHECK_THAT(set_option(exporter, "what=1", values).error().message,
-               ContainsSubstring("there is no option \"what\"; there are: version=v4|v3, "
+               ContainsSubstring("there is no option \"what\"; known: version=v4|v3, "
                                  "meshes=WHOLE NUMBER, flat=true|false"));
     CHECK_FALSE(set_option(exporter, "meshes=11", values));
     CHECK_FALSE(set_option(exporter, "meshes=7x", values));

@@ -19,7 +19,7 @@ using namespace restage::test;
 
 namespace {
 
-// No machine is sure to have German: this is its category LC_NUMERIC as glibc's localedef compiles it (decimal_point
+// German may not be installed: this is its category LC_NUMERIC as compiled by glibc's localedef (decimal_point
 // ",", thousands_sep ".", grouping 3;3; the format is as old as glibc 2.3), in a folder that LOCPATH names.
 constexpr char lc_numeric[] =
     "\x14\x11\x03\x20\x06\0\0\0\x20\0\0\0\x22\0\0\0\x24\0\0\0\x28\0\0\0\x2c\0\0\0\x30\0\0\0,\0.\0\x03\x03\0\0,\0\0\0."
@@ -32,7 +32,7 @@ struct Commas : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-// C and C++ of this process write commas while this lives.
+// C and C++ of this process write commas while this exists.
 class CommaLocale {
   public:
     CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Commas))) {
@@ -61,10 +61,10 @@ fs::path data() { return test::source_dir() / "tests/data"; }
 
 } // namespace
 
-TEST_CASE("files are read alike in every locale", "[locale]") {
+TEST_CASE("files are read identically in every locale", "[locale]") {
     Plugins plugins;
     Folder folder;
-    // By its content alone; and a number that only underflow makes special.
+    // By its content only; and a number that is special only because of underflow.
     REQUIRE(write_file_atomic(folder.path / "points.txt", "v 0.5 0.5 0.5\nv 1.5 0.25 0\nv 0 1.5 0.5\nf 1 2 3\n"));
     REQUIRE(
         write_file_atomic(folder.path / "tiny.pbrt",
@@ -94,7 +94,7 @@ TEST_CASE("files are read alike in every locale", "[locale]") {
     if (!huge) CHECK_THAT(huge.error().message, Catch::Matchers::ContainsSubstring("too large"));
 }
 
-TEST_CASE("files are written alike in every locale", "[locale]") {
+TEST_CASE("files are written identically in every locale", "[locale]") {
     Plugins plugins;
     for (const bool v4 : {true, false}) {
         const Everything all(v4);
@@ -112,7 +112,7 @@ TEST_CASE("files are written alike in every locale", "[locale]") {
     }
 }
 
-TEST_CASE("a shutter and a light kept as text are read alike in every locale", "[locale]") {
+TEST_CASE("a shutter and a light kept as text are read identically in every locale", "[locale]") {
     Plugins plugins;
     Folder folder;
     REQUIRE(write_file_atomic(

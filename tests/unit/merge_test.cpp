@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file put into an open scene: new ids for everything, one step of the history, its camera and light left behind.
+// A file inserted into an open scene: new ids for everything, one undo step, without its camera and light.
 #include "document/session.hpp"
 #include "model_files.hpp"
 #include "scene/validate.hpp"
@@ -44,7 +44,7 @@ struct Room : ModelFiles {
 
 } // namespace
 
-TEST_CASE("insert: objects come with what they need, and nothing else", "[merge]") {
+TEST_CASE("insert: objects come with their dependencies and nothing else", "[merge]") {
     Room room;
     const scene::Scene& scene = room.session.scene();
     const auto before = scene;
@@ -110,7 +110,7 @@ TEST_CASE("insert: a right-handed model is not mirrored in a left-handed scene",
     CHECK(m[1][1] == 1); // up stays up
 }
 
-TEST_CASE("insert: up becomes up", "[merge]") {
+TEST_CASE("insert: the up axes are aligned", "[merge]") {
     scene::Scene into, from;
     const auto look = [](scene::Scene& s, glm::dvec3 forward, glm::dvec3 up) {
         scene::Camera camera;

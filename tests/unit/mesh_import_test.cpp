@@ -76,7 +76,7 @@ TEST_CASE("ply: as one grey object, with its normals, y up", "[mesh]") {
     CHECK(says(in, io::Fate::kept, "a.ply", "2 triangles"));
 }
 
-TEST_CASE("stl: what other programs write is read", "[mesh]") {
+TEST_CASE("stl: files of other programs are read", "[mesh]") {
     ModelFiles files;
     const auto triangles = [&](const std::string& bytes) {
         files.write("a.stl", bytes);
@@ -107,7 +107,7 @@ TEST_CASE("stl: what other programs write is read", "[mesh]") {
 
 namespace {
 
-// The linear colour at the first texel of what the first object's material shows.
+// The linear colour at the first texel of the first object's texture.
 std::array<float, 3> first_texel(const io::ImportedScene& in) {
     const auto* value = in.scene.materials[in.scene.instances[{1}].material].params.find("reflectance");
     REQUIRE(value);
@@ -140,7 +140,7 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
     CHECK(first_texel(faces) == std::array<float, 3>{0, 0, 1});
     CHECK(says(faces, io::Fate::dropped, "f.ply", "face property \"quality\": 2 values"));
     CHECK(says(faces, io::Fate::dropped, "f.ply", "1 are named, but there are no texture"));
-    // An opacity beside the colours is reported only if something is transparent.
+    // Opacity with the colours is reported only if something is transparent.
     const std::string rgba = rgb + "property uchar alpha\n";
     const auto with_opacity = [&](const char* vertex, const char* face) {
         const auto row = [&](const char* place) { return std::string(place) + " 255 0 0 " + vertex + "\n"; };
@@ -155,7 +155,7 @@ TEST_CASE("ply: colours of vertices and faces are shown", "[mesh]") {
     CHECK(says(thin, io::Fate::dropped, "a.ply", "face property \"alpha\": 1 values"));
 }
 
-TEST_CASE("ply: MeshLab's textures, by the corners of faces", "[mesh]") {
+TEST_CASE("ply: MeshLab's textures, per corner of a face", "[mesh]") {
     ModelFiles files;
     files.write("t.ply",
                 ply("", "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n",
@@ -207,14 +207,14 @@ TEST_CASE("ply: strips, concave polygons, points, map coordinates", "[mesh]") {
     CHECK(double(m.positions[1].x) + instance.object_to_world[3].x == 500000.25);
 }
 
-TEST_CASE("meshes: broken files say where", "[mesh]") {
+TEST_CASE("meshes: errors of broken files have their place", "[mesh]") {
     ModelFiles files;
     const auto error = [&](const char* name, const std::string& bytes) {
         files.write(name, bytes);
         return files.error(name);
     };
     CHECK_THAT(error("a.stl", binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}}, 3)),
-               ContainsSubstring("byte 134: the file is cut: 3 facets promised, 1 found"));
+               ContainsSubstring("byte 134: the file is cut: 3 facets declared, 1 found"));
     CHECK_THAT(error("a.stl", binary({{0, 0, 0, std::nanf(""), 0, 0, 0, 1, 0}}, 1)), ContainsSubstring("byte 108: "));
     CHECK_THAT(error("a.stl", ""), ContainsSubstring("header ends early"));
     CHECK_THAT(error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the tests of the model importers: a folder of files, the importers of this build, questions to the report.
+// Shared by the tests of the model importers: a folder of files, the importers of this build, queries of the report.
 #pragma once
 
 #include "io/import.hpp"
@@ -51,7 +51,7 @@ class ModelFiles {
     plugin::Registry registry{log_, io::with_services()};
 };
 
-// Does the report have such a line, at that place ("file:line", or a part of it), with that text?
+// Whether the report has such a line, at that place ("file:line", or a part of it), with that text.
 inline bool says(const io::ImportedScene& in, io::Fate fate, const std::string& place, const std::string& words) {
     for (const auto& e : in.report.entries)
         if (const std::string line = io::to_string(e);

@@ -114,7 +114,7 @@ TEST_CASE("obj: MTL statements choose the nearest material", "[obj]") {
     CHECK(material("mirror").params.number("uroughness", 1) == 0);
     CHECK(material("glass").type == "dielectric");
     CHECK(material("glass").params.number("eta", 0) == Approx(1.6));
-    CHECK(instance("glass").alpha == 1); // it is clear, not a veil
+    CHECK(instance("glass").alpha == 1); // it is clear, not translucent
     CHECK(material("pbr").type == "principled");
     CHECK(material("pbr").params.number("roughness", 0) == Approx(0.25));
     CHECK(material("pbr").params.number("metallic", 0) == 1);
@@ -126,7 +126,7 @@ TEST_CASE("obj: MTL statements choose the nearest material", "[obj]") {
     CHECK(says(in, io::Fate::dropped, "", "1 of 9 are used by no face"));
 }
 
-TEST_CASE("obj: missing things are reported with their place, and the rest opens", "[obj]") {
+TEST_CASE("obj: missing things are reported with their place, and the rest is imported", "[obj]") {
     ModelFiles files;
     files.write("a.mtl", "newmtl wood\nKd 1 1 1\nmap_Kd no\\such.png\n");
     files.write("a.obj", std::string("mtllib a.mtl\nmtllib other.mtl\n") + square +
@@ -169,7 +169,7 @@ TEST_CASE("obj: files of other programs are read", "[obj]") {
         const auto color = wire.scene.materials[instance.material].params.color("reflectance", {});
         CHECK(color == (i == 1 ? std::array<float, 3>{1, 0, 0} : std::array<float, 3>{0, 1, 0}));
     }
-    // Slashes with nothing behind them, lines that end as on old Macs, negative indices, numbers with a plus.
+    // Trailing slashes, old Mac line ends, negative indices, numbers with a plus.
     CHECK(areas(load(std::string(square) + "f 1// 2// 3// 4//\n")) == Approx(1));
     CHECK(areas(load(std::string(square) + "f 1/1/ 2/2/ 3/3/\n")) == Approx(0.5));
     CHECK(areas(load(std::string(square) + "f 1/ 2/ 3/\n")) == Approx(0.5));
@@ -210,7 +210,7 @@ TEST_CASE("obj: comments and options may follow their statements", "[obj]") {
         CHECK(entry.what.find("mtllib") == std::string::npos);
 }
 
-TEST_CASE("obj: coordinates of maps keep their millimetres", "[obj]") {
+TEST_CASE("obj: large map coordinates keep their millimetres", "[obj]") {
     ModelFiles files;
     files.write("utm.obj",
                 "v 500000.125 5400000.25 100\nv 500001.125 5400000.25 100\nv 500000.125 5400000.375 100\n"
@@ -249,7 +249,7 @@ TEST_CASE("obj: options of textures may leave out numbers, and names may have bl
     CHECK(says(in, io::Fate::dropped, "m.mtl:9", "Kd spectral a.rfl"));
 }
 
-TEST_CASE("obj: colours of vertices are shown, and lines alone get a thickness", "[obj]") {
+TEST_CASE("obj: colours of vertices are shown, and lines without faces get a thickness", "[obj]") {
     ModelFiles files;
     files.write("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n");
     const auto in = files.load("c.obj");
@@ -268,7 +268,7 @@ TEST_CASE("obj: colours of vertices are shown, and lines alone get a thickness",
     CHECK(says(lines, io::Fate::approximated, "", "its 2 lines get a radius"));
 }
 
-TEST_CASE("obj: a camera shows everything, and a studio lights it", "[obj]") {
+TEST_CASE("obj: a camera shows all objects, and a studio lights them", "[obj]") {
     ModelFiles files;
     files.write("a.obj", "v -3 0 7\nv 5 1 7\nv 0 9 -2\nf 1 2 3\n");
     const auto in = files.load("a.obj");

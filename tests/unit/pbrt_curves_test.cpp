@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves as triangles: where they run, how wide they are, which belong together.
+// Curves as triangles: their paths, widths and grouping.
 #include "pbrt_writer.hpp"
 
 #include <catch2/catch_approx.hpp>
@@ -57,8 +57,8 @@ TEST_CASE("pbrt curves: a straight tube has the silhouette of its width", "[pbrt
             std::string(type) + "\"");
         REQUIRE(r.meshes.size() == 1);
         const Figures f = measure(r.meshes[0]);
-        // Cauchy: the mean shadow of a convex thing is a quarter of its surface; along the axis the mean width is the
-        // perimeter over pi. So the surface is pi * width * length, but for the slant of the taper.
+        // Cauchy: the mean projected area of a convex body is a quarter of its surface; along the axis the mean width
+        // is the perimeter over pi. So the surface is pi * width * length, except for the slant of the taper.
         CHECK(f.area == Approx(std::numbers::pi * 0.15 * 3).epsilon(1e-3));
         CHECK(f.against == 0);
         CHECK(r.meshes[0].indices.size() == 3 * 2 * 8); // straight: one piece
@@ -66,7 +66,7 @@ TEST_CASE("pbrt curves: a straight tube has the silhouette of its width", "[pbrt
     }
 }
 
-TEST_CASE("pbrt curves: every form of one parabola is the same strip", "[pbrt]") {
+TEST_CASE("pbrt curves: every representation of a parabola gives the same strip", "[pbrt]") {
     // y = x^2 over [0, 1]: as quadratic and cubic Bezier, and as B-spline whose one segment it is.
     const std::string ribbon = " \"string type\" \"ribbon\" \"float width\" 0.1 \"normal N\" [ 0 0 1 0 0 1 ]\n";
     const std::string forms[] = {
@@ -101,7 +101,7 @@ TEST_CASE("pbrt curves: those of one state become one object", "[pbrt]") {
     Recorder r = loaded("AttributeBegin\n" + one + "AttributeEnd\nAttributeBegin\nRotate 30 1 2 3\nScale 2 2 -2\n" +
                         one + "AttributeEnd\nAttributeBegin\nScale 1 2 1\n" + one +
                         "AttributeEnd\nMaterial \"conductor\"\n" + one + "ReverseOrientation\n" + one);
-    REQUIRE(r.instances.size() == 4); // another shear, another material, another side
+    REQUIRE(r.instances.size() == 4); // a different shear, material, orientation
     CHECK(r.meshes[0].indices.size() == 2 * r.meshes[1].indices.size());
     // Of two segments, in an object: twice the pieces, placed twice.
     r = loaded("ObjectBegin \"tuft\"\n" + one + one + "ObjectEnd\n" + one +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files: every broken one of tests/data/pbrt/broken gives the message and place its first line names; files cut
-// or damaged anywhere never crash; the scenes and corpora of the environment variables load or say why not.
+// Whole files: every broken one of tests/data/pbrt/broken gives the message and place in its first line; truncated
+// or damaged files never crash; the scenes and corpora of the environment variables load or report why not.
 #include "paths.hpp"
 #include "pbrt_writer.hpp"
 
@@ -97,8 +97,8 @@ TEST_CASE("pbrt broken files: non-files", "[pbrt]") {
     CHECK(empty.error.message.find("no WorldBegin") != std::string::npos);
 }
 
-// A small scene with something of everything, to damage.
-TEST_CASE("pbrt broken files: cut and damaged anywhere", "[pbrt]") {
+// A small scene with every kind of statement, to damage.
+TEST_CASE("pbrt broken files: truncated and damaged anywhere", "[pbrt]") {
     const std::string good = read(data / "everything.pbrt");
     const Folder folder;
     for (const char* name : {"part.pbrt", "tri.ply", "eta.spd"})
@@ -185,7 +185,7 @@ TEST_CASE("pbrt scenes: all of RESTAGE_SCENES load", "[pbrt]") {
         }
 }
 
-TEST_CASE("pbrt scenes: a corpus in RESTAGE_CORPORA loads or says why not", "[pbrt]") {
+TEST_CASE("pbrt scenes: a corpus in RESTAGE_CORPORA loads or reports why not", "[pbrt]") {
     const char* folder = std::getenv("RESTAGE_CORPORA");
     if (!folder) SKIP("RESTAGE_CORPORA is not set: the corpus is left out");
     const fs::path root = fs::path(folder) / "pbrt";

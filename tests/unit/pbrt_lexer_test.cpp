@@ -51,7 +51,7 @@ TEST_CASE("pbrt lexer: kinds, comments and places", "[pbrt]") {
     expect(TokenKind::end_of_file, "", 4, 1); // again and again
 }
 
-TEST_CASE("pbrt lexer: numbers as pbrt writes them", "[pbrt]") {
+TEST_CASE("pbrt lexer: numbers in pbrt's forms", "[pbrt]") {
     Text t("1 -2 +3 .5 -.25 4. 1e3 1E-2 +1.5e+2 1e-400 007");
     const double expected[] = {1, -2, 3, 0.5, -0.25, 4, 1000, 0.01, 150, 0, 7};
     for (const double want : expected) {
@@ -78,7 +78,7 @@ TEST_CASE("pbrt lexer: a number after a peek, brackets without blanks", "[pbrt]"
     CHECK(t.lexer.next().text == "x");
 }
 
-TEST_CASE("pbrt lexer: text behind a number is left out and reported", "[pbrt]") {
+TEST_CASE("pbrt lexer: text after a number is skipped and reported", "[pbrt]") {
     Text t("1, 2\n 1.2.3 12abc");
     for (const double want : {1.0, 2.0, 1.2, 12.0}) {
         double value = 0;

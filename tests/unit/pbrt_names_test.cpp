@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names for the outliner, from whatever a file offers; and those in our own comments.
+// Names for the outliner, from various parts of a file; and those in our own comments.
 #include "pbrt_writer.hpp"
 
 #include <catch2/catch_test_macros.hpp>
@@ -70,10 +70,10 @@ TEST_CASE("pbrt names: files and objects", "[pbrt]") {
     CHECK(r.instances[1].name == "Wood");
     CHECK(r.instances[2].name == "Wood");
     CHECK(r.meshes[1].name == "mesh_00012"); // the mesh is the file's
-    CHECK(named(shape("Mesh003.ply")).instances[0].name == "Mesh003"); // there is nothing better
+    CHECK(named(shape("Mesh003.ply")).instances[0].name == "Mesh003"); // nothing better is available
     r = named("# name: Cup\nAttributeBegin\n" + shape("Spout.ply") + "AttributeEnd");
     CHECK(r.instances[0].name == "Cup");
-    // An object of one takes the object's name, a larger one the materials'.
+    // An object of one shape takes the object's name, a larger one the materials'.
     r = named("ObjectBegin \"Tree\"\n" + std::string(wood) + shape("mesh_00012.ply") +
               "ObjectEnd\nObjectInstance \"Tree\"\n# the oak\nObjectInstance \"Tree\"");
     REQUIRE(r.groups.size() == 2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pbrt files whose materials are plugins': pbrt's hair, in all the ways it gives its colour, and names unknown to
-// pbrt. Read, written, read again.
+// pbrt files with materials of plugins: pbrt's hair, with all specifications of its colour, and names unknown to
+// pbrt. Read, written, reread.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"

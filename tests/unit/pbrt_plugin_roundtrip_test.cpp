@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials that pbrt can only approximate: the file holds the approximation, and the exact form for us. They come back
-// with all their values; without their plugin the approximation does.
+// Materials that pbrt can only approximate: the file contains the approximation, and the exact form for our importer.
+// They are restored with all their values, or as the approximation if their plugin is missing.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
@@ -37,7 +37,7 @@ struct Case {
 
 } // namespace
 
-TEST_CASE("materials that pbrt lacks come back from it with all their values", "[pbrt]") {
+TEST_CASE("materials that pbrt lacks survive it with all their values", "[pbrt]") {
     const std::string as = GENERATE("v4", "v3");
     const std::vector<Case> cases = {
         {"theatre curtain",
@@ -82,7 +82,7 @@ TEST_CASE("materials that pbrt lacks come back from it with all their values", "
             CHECK(*back == value);
         }
     }
-    CHECK(read->scene.materials.size() == all.scene.materials.size()); // the stand-ins do not count
+    CHECK(read->scene.materials.size() == all.scene.materials.size()); // replacements do not count
     REQUIRE(io::export_scene(read->scene, folder.file("again.pbrt"), plugins.registry, version(as.c_str())));
     for (const Case& c : cases)
         CHECK(material_lines(folder.file("again.pbrt"), c.name) == material_lines(folder.file("out.pbrt"), c.name));

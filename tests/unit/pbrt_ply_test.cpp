@@ -177,12 +177,12 @@ TEST_CASE("pbrt ply: broken files", "[pbrt]") {
         ContainsSubstring("vertex_indices"));
     CHECK_THAT(failure(three + "end_header\n0 0 0 1 0 0 nan 1 0\n"), ContainsSubstring("vertex 2 is not finite"));
     CHECK_THAT(failure(three + "end_header\n0 0 0 1 0 0 0 1 0\n"), ContainsSubstring("no faces"));
-    // Cut at each byte: a message or, behind the last face, the whole mesh; never a crash.
+    // Truncated at each byte: a message or, after the last face, the whole mesh; never a crash.
     for (std::size_t n = 0; n < good.size(); ++n) {
         INFO(n);
         CHECK_FALSE(failure(good.substr(0, n)).empty());
     }
-    // Each byte inverted: any result, but a clean one.
+    // Each byte inverted: any result, but no crash.
     for (std::size_t n = 0; n < good.size(); ++n) {
         std::string damaged = good;
         damaged[n] = static_cast<char>(~damaged[n]);

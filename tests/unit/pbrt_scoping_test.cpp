@@ -44,7 +44,7 @@ TEST_CASE("pbrt transforms: in double, in pbrt's order", "[pbrt]") {
     const double third = std::numbers::pi / 3;
     const Matrix r = rotation(60, {0, 0, 2});
     check_vec(transform_vector(r, {1, 0, 0}), {std::cos(third), std::sin(third), 0}, 1e-15);
-    // Any axis keeps itself, lengths and handedness.
+    // Rotations preserve their axis, lengths and handedness.
     const Matrix any = rotation(77, {1, -2, 3});
     check_vec(transform_vector(any, {1, -2, 3}), {1, -2, 3}, 1e-14);
     CHECK(determinant3(any) == Catch::Approx(1).epsilon(1e-14));
@@ -76,7 +76,7 @@ TEST_CASE("pbrt transforms: in double, in pbrt's order", "[pbrt]") {
     check_vec(origin_of(s, 0), {3, 2, 3});
     check_vec(origin_of(s, 1), {0, 1, 0}, 1e-15);
     check_vec(origin_of(s, 2), {8, 9, 10});
-    // A transform that is kept whole: what a float would have lost.
+    // A transform kept in double: a float would have lost digits.
     const Recorder far = loaded("Translate 16777217 0 0" + sphere);
     CHECK(far.instances[0].raw.object_to_world[12] == 16777217.0);
 }
@@ -114,7 +114,7 @@ TEST_CASE("pbrt scoping: attributes, transforms, names", "[pbrt]") {
     check_vec(origin_of(three, 3), {0, 0, 0});
 }
 
-TEST_CASE("pbrt scoping: a name used before it is made (v4), textures shadowed (v3)", "[pbrt]") {
+TEST_CASE("pbrt scoping: a name used before its definition (v4), textures shadowed (v3)", "[pbrt]") {
     const Recorder r =
         loaded("NamedMaterial \"late\"" + sphere +
                    "MakeNamedMaterial \"late\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]\n"
@@ -133,7 +133,7 @@ TEST_CASE("pbrt scoping: a name used before it is made (v4), textures shadowed (
         "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [ 0 1 0 ]\nMaterial \"matte\" \"texture Kd\" \"t\"" +
             sphere + "AttributeEnd\nMaterial \"matte\" \"texture Kd\" \"t\"" + sphere + "WorldEnd",
         "Film \"image\"");
-    REQUIRE(s.materials.size() == 2); // the same words, but not the same texture
+    REQUIRE(s.materials.size() == 2); // the same text, but not the same texture
     CHECK(s.materials[s.instances[0].raw.material - 1].values.at("reflectance").ref == 2);
     CHECK(s.materials[s.instances[1].raw.material - 1].values.at("reflectance").ref == 1);
 }
@@ -188,7 +188,7 @@ TEST_CASE("pbrt scoping: objects", "[pbrt]") {
     CHECK(r.meshes.size() == 2); // a unit sphere is a unit sphere; and the place of "none"
     REQUIRE(r.instances.size() == 6);
     REQUIRE(r.groups.size() == 2);
-    check_vec(origin_of(r, 0), {0, 0, 0}); // the object itself is not seen, and its transforms ended
+    check_vec(origin_of(r, 0), {0, 0, 0}); // the object itself is invisible, and its transforms ended
     check_vec(origin_of(r, 1), {2, 0, 0});
     check_vec(origin_of(r, 2), {4, 0, 0});
     check_vec(origin_of(r, 4), {4, 2, 0});
@@ -235,7 +235,7 @@ TEST_CASE("pbrt files: Include continues the state, Import has its own, missing 
     Recorder r;
     REQUIRE(r.load_file(scene) == 1);
     REQUIRE(r.instances.size() == 8); // the last but one: the place of the missing file
-    check_vec(origin_of(r, 1), {1, 0, 0}); // found beside the including file
+    check_vec(origin_of(r, 1), {1, 0, 0}); // found in the including file's folder
     check_vec(origin_of(r, 2), {1, 0, 0});
     check_vec(origin_of(r, 3), {1, 0, 0});
     check_vec(origin_of(r, 5), {0, 0, 0});
@@ -262,7 +262,7 @@ TEST_CASE("pbrt versions are detected", "[pbrt]") {
         return r.lines.at(0).what;
     };
     const std::string four = "read as pbrt-v4", three = "read as pbrt-v3";
-    CHECK(version("WorldBegin") == four); // nothing tells
+    CHECK(version("WorldBegin") == four); // no evidence
     CHECK(version("WorldBegin WorldEnd") == three);
     CHECK(version("Film \"image\" WorldBegin") == three);
     CHECK(version("Film \"rgb\" WorldBegin") == four);
@@ -277,7 +277,7 @@ TEST_CASE("pbrt versions are detected", "[pbrt]") {
     CHECK(version("SurfaceIntegrator \"path\" WorldBegin") == three);
     CHECK(version("WorldBegin ColorSpace \"srgb\" Shape \"cone\"") == four);
     CHECK(version("WorldBegin Attribute \"shape\" \"float alpha\" 1") == four);
-    // A v4 file with one old material: v4, and the material means what it meant.
+    // A v4 file with one v3 material: v4, and the material keeps its meaning.
     Recorder r;
     REQUIRE(r.load_text("Film \"rgb\" WorldBegin Material \"glass\"" + sphere) == 1);
     CHECK(r.lines.at(0).what == four);

@@ -71,7 +71,7 @@ MeshRecord one(const std::string& shape) {
 
 } // namespace
 
-TEST_CASE("pbrt shapes: spheres have the exact area, are closed, look outward", "[pbrt]") {
+TEST_CASE("pbrt shapes: spheres have the exact area, are closed, and face outwards", "[pbrt]") {
     for (const double radius : {1.0, 0.01, 250.0}) {
         const MeshRecord mesh = one("\"sphere\" \"float radius\" " + std::to_string(radius));
         const Measure m = measure(mesh);
@@ -121,7 +121,7 @@ TEST_CASE("pbrt shapes: parts of quadrics and their area", "[pbrt]") {
     CHECK(measure(one("\"cone\"")).volume > 0);
 }
 
-TEST_CASE("pbrt shapes: orientation of instances follows ReverseOrientation alone", "[pbrt]") {
+TEST_CASE("pbrt shapes: orientation of instances follows only ReverseOrientation", "[pbrt]") {
     // A triangle in the plane z = 0, wound counter-clockwise from +z, under a mirror. pbrt-v4: ng = cross(e1, e2) in
     // world space, flipped if ReverseOrientation xor handedness swaps. The host: M^-T (cross in object space), flipped
     // by the flag.
@@ -202,7 +202,7 @@ TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
     for (std::size_t i = 0; i < mesh.positions.size() / 3; ++i)
         top = std::max(top, double(mesh.positions[3 * i + 2]));
     CHECK(top == Catch::Approx(1 - 4 * g).epsilon(1e-6));
-    // Levels do not move the limit: the same vertex after one level.
+    // Levels do not change the limit: the same vertex after one level.
     const MeshRecord coarse = one("\"loopsubdiv\" \"integer nlevels\" 1 " + octahedron);
     double coarse_top = 0;
     for (std::size_t i = 0; i < coarse.positions.size() / 3; ++i)
@@ -213,7 +213,7 @@ TEST_CASE("pbrt shapes: loop subdivision reaches the limit surface", "[pbrt]") {
         CHECK(length(n) == Catch::Approx(1).epsilon(1e-4));
         CHECK(dot(normalize(p), n) < -0.9); // smooth and round
     }
-    // A flat sheet keeps flat, and its straight borders straight.
+    // A flat sheet stays flat, and its straight borders straight.
     const MeshRecord sheet = one(
         "\"loopsubdiv\" \"integer levels\" 3 \"point3 P\" [ 0 0 0 1 0 0 2 0 0 0 1 0 1 1 0 2 1 0 0 2 0 1 2 0 2 2 0 ]\n"
         "\"integer indices\" [ 0 1 4 0 4 3 1 2 5 1 5 4 3 4 7 3 7 6 4 5 8 4 8 7 ]");

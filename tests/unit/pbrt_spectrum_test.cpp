@@ -86,11 +86,11 @@ TEST_CASE("pbrt spectra: blackbodies", "[pbrt]") {
 
 TEST_CASE("pbrt spectra: reflectances", "[pbrt]") {
     check_near(rgb_of_reflectance(constant(0.3)), {0.3, 0.3, 0.3}, 1e-9);
-    // v3 sees reflectances under equal energy: a constant is not quite grey, as in pbrt-v3.
+    // v3 evaluates reflectances under equal energy: a constant is not exactly grey, as in pbrt-v3.
     const Rgb old = rgb_equal_energy(constant(1));
     CHECK(old.r == Catch::Approx(1.2048).margin(2e-3));
     CHECK(old.b == Catch::Approx(0.9087).margin(2e-3));
-    // Inline samples: v4 is 0 outside them, v3 goes on.
+    // Inline samples: v4 is 0 outside their range, v3 continues.
     const auto band = from_pairs({500, 1, 600, 1}, Ends::zero);
     REQUIRE(band);
     CHECK((*band)[499 - first_nm] == 0);

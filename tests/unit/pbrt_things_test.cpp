@@ -138,8 +138,8 @@ TEST_CASE("pbrt materials: approximated ones are written back whole, unknown par
         "MakeNamedMaterial \"odd\" \"string type\" \"diffuse\" \"float wetness\" 0.5\nMaterial \"velvet\"\n"
         "MakeNamedMaterial \"paint\" \"string type\" \"measured\" \"string filename\" \"p.bsdf\"");
     CHECK(r.materials[0].type == "coateddiffuse");
-    // Under a smooth coat of index 1.33 a share of 0.472 goes back inside (Egan and Hilgeman 1973): 0.7 / (1 - 0.3 *
-    // 0.472).
+    // Under a smooth coat of index 1.33 a fraction of 0.472 is reflected back inside (Egan and Hilgeman 1973): 0.7 / (1
+    // - 0.3 * 0.472).
     CHECK(std::abs(r.materials[0].values.at("reflectance").v[0] - 0.8155f) < 1e-3f);
     CHECK(r.materials[0].verbatim ==
           "=* \"string type\" [ \"subsurface\" ]\n=* \"float mfp\" [ 3 ]\n=* \"rgb reflectance\" [ 0.7 0.4 0.3 ]\n");
@@ -157,7 +157,7 @@ TEST_CASE("pbrt materials: approximated ones are written back whole, unknown par
         if (line.what.find("odd") != std::string::npos) CHECK(line.line == 4);
 }
 
-TEST_CASE("pbrt textures: encodings, scaling, classes that only average", "[pbrt]") {
+TEST_CASE("pbrt textures: encodings, scaling, classes shown as their average", "[pbrt]") {
     const Folder folder;
     for (const char* name : {"a.png", "a.tga", "a.exr", "a.jpg"})
         folder.file(name, "x");
@@ -180,7 +180,7 @@ TEST_CASE("pbrt textures: encodings, scaling, classes that only average", "[pbrt
     REQUIRE(r.textures.size() == 6);
     CHECK(r.images[0].encoding == RESTAGE_SRGB);
     CHECK(r.images[1].encoding == RESTAGE_LINEAR);
-    CHECK(r.images[2].encoding == RESTAGE_SRGB); // TGA is sRGB in v4, whatever is asked
+    CHECK(r.images[2].encoding == RESTAGE_SRGB); // TGA is always sRGB in v4
     CHECK(r.images[3].encoding == RESTAGE_GAMMA);
     CHECK(r.images[3].gamma == 1.8f);
     CHECK(r.textures[1].is_float);
@@ -246,7 +246,7 @@ TEST_CASE("pbrt lights: values in both versions", "[pbrt]") {
     CHECK(r.raw_lights[2].value[0] == Catch::Approx(100 / (4 * pi)));
     CHECK(r.raw_lights[3].kind == RESTAGE_LIGHT_DISTANT);
     CHECK(r.raw_lights[3].value[0] == 5);
-    CHECK(r.raw_lights[3].light_to_world[8] == Catch::Approx(1)); // +z of the light is the way it travels
+    CHECK(r.raw_lights[3].light_to_world[8] == Catch::Approx(1)); // the light travels along its +z
     CHECK(r.raw_lights[4].kind == RESTAGE_LIGHT_SPOT);
     CHECK(r.raw_lights[4].cone_angle == 40);
     CHECK(r.raw_lights[4].cone_delta == 5);
@@ -416,7 +416,7 @@ TEST_CASE("pbrt report: the same thing is one line with a count and the first pl
 TEST_CASE("pbrt camera: orthographic and spherical ones are kept as such", "[pbrt]") {
     const auto camera = [](const std::string& text) {
         const Recorder r = loaded(text + " WorldBegin");
-        for (const auto& line : r.lines) // one that is kept says what tells the version
+        for (const auto& line : r.lines) // a kept one determines the version
             CHECK((line.fate == RESTAGE_KEPT || !line.what.starts_with("Camera")));
         return r.raw_cameras.at(0);
     };
@@ -424,7 +424,7 @@ TEST_CASE("pbrt camera: orthographic and spherical ones are kept as such", "[pbr
         camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [ -5 5 -4 4 ]");
     CHECK(flat.projection == RESTAGE_ORTHOGRAPHIC);
     CHECK(flat.screen_window[1] == 5);
-    CHECK(flat.camera_to_world[14] == 5); // where the file puts it
+    CHECK(flat.camera_to_world[14] == 5); // at the file's position
     CHECK(camera("Camera \"spherical\"").projection == RESTAGE_SPHERICAL_EQUAL_AREA);
     CHECK(camera("Camera \"spherical\" \"string mapping\" \"equirectangular\"").projection == RESTAGE_SPHERICAL);
     CHECK(camera("Film \"image\" Camera \"environment\"").projection == RESTAGE_SPHERICAL);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where pbrt warns and continues, so does the importer, with a line of the report that says where; and unreadable
-// things keep their place.
+// Where pbrt warns and continues, so does the importer, with a line of the report and its place; and unreadable
+// things stay in place.
 #include "pbrt_writer.hpp"
 
 #include <algorithm>
@@ -153,7 +153,7 @@ TEST_CASE("pbrt-v3: crossed blocks keep pbrt's two stacks", "[pbrt]") {
     CHECK((outer[12] == 1 && outer[13] == 0 && outer[14] == 0));
 }
 
-TEST_CASE("pbrt: unreadable things keep their place", "[pbrt]") {
+TEST_CASE("pbrt: unreadable things stay in place", "[pbrt]") {
     Recorder r;
     REQUIRE(
         r.load_text(
@@ -234,7 +234,7 @@ TEST_CASE("pbrt: subsurface materials have their colour", "[pbrt]") {
         REQUIRE(r.materials.size() == 1);
         return r;
     };
-    // Through a coat of eta 1.33 a base of albedo r sends back r (1 - F) / (1 - r F), F = 0.472 inside.
+    // Through a coat of eta 1.33 a base of albedo r reflects r (1 - F) / (1 - r F), F = 0.472 inside.
     const auto sent_back = [](double base) { return base * (1 - 0.4723) / (1 - 0.4723 * base); };
     const std::string texture = "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [.8 .1 .1]\n";
     for (const auto& [head, material] :
@@ -312,13 +312,13 @@ TEST_CASE("pbrt: unknown parameters give a warning, known ones are kept", "[pbrt
     CHECK(depth.reports("\"float maxdepth\" has a value of the wrong kind"));
     CHECK(depth.reports("pixelsample"));
     CHECK_FALSE(depth.reports("rrthreshold"));
-    Recorder v4; // pbrt stops there; the intent is clear
+    Recorder v4; // pbrt stops here; the intent is clear
     REQUIRE(v4.load_text(v4_head + "Shape \"sphere\" \"integer radius\" 3\n") == 1);
     CHECK(v4.meshes.at(0).positions.at(2) == Catch::Approx(-3).epsilon(0.01));
     CHECK(v4.reports("should be \"float radius\""));
 }
 
-TEST_CASE("pbrt-v3: stand-ins are pbrt's own", "[pbrt]") {
+TEST_CASE("pbrt-v3: replacements are those of pbrt", "[pbrt]") {
     Recorder r;
     REQUIRE(r.load_text(v3_head +
                         "Material \"gypsum\" \"rgb Kd\" [.9 .8 .7]\nShape \"sphere\"\n"
@@ -329,12 +329,12 @@ TEST_CASE("pbrt-v3: stand-ins are pbrt's own", "[pbrt]") {
                         "Texture \"e\" \"color\" \"imagemap\" \"string filename\" \"no.exr\" \"float scale\" 3\n"
                         "WorldEnd\n") == 1);
     INFO(r.all_reports());
-    CHECK(r.materials.at(0).values.at("reflectance").v[2] == 0.7f); // matte with what it says
+    CHECK(r.materials.at(0).values.at("reflectance").v[2] == 0.7f); // matte with its parameters
     CHECK(r.materials.at(1).type == "interface"); // no "string type"
     CHECK(r.reports("no \"string type\""));
     CHECK(r.materials.at(2).values.at("reflectance").v[0] == 0); // black
     CHECK(r.raw_lights.at(0).value[0] == 0);
-    // A grey of 0.5 in place of the texels, which are decoded and scaled.
+    // A grey of 0.5 instead of the texels, decoded and scaled.
     CHECK(r.textures.at(0).values.at("average").v[0] == Catch::Approx(0.21404).epsilon(1e-4));
     CHECK(r.textures.at(1).values.at("average").v[0] == Catch::Approx(1.5));
 }
@@ -356,7 +356,7 @@ TEST_CASE("pbrt: empty quadrics do not stop the import", "[pbrt]") {
 }
 
 TEST_CASE("pbrt-v3: blocks out of place", "[pbrt]") {
-    Recorder early; // VERIFY_WORLD: left out
+    Recorder early; // VERIFY_WORLD: skipped
     REQUIRE(early.load_text("Film \"image\"\nAttributeBegin\nReverseOrientation\nTransformBegin\n"
                             "Texture \"t\" \"color\" \"constant\"\nMakeNamedMaterial \"m\" \"string type\" \"mirror\"\n"
                             "WorldBegin\nShape \"sphere\"\nWorldEnd\n") == 1);
@@ -365,7 +365,7 @@ TEST_CASE("pbrt-v3: blocks out of place", "[pbrt]") {
     CHECK(early.textures.empty());
     CHECK(early.reports("AttributeBegin: it must come after WorldBegin"));
     CHECK(early.reports("ReverseOrientation: it must come after WorldBegin"));
-    Recorder nested; // the second object is open when the first ObjectEnd comes; what follows is in the world
+    Recorder nested; // the second object is open at the first ObjectEnd; later shapes are in the world
     REQUIRE(nested.load_text(v3_head + "ObjectBegin \"a\"\nShape \"sphere\"\nObjectBegin \"b\"\nTranslate 1 0 0\n"
                                        "Shape \"disk\"\nObjectEnd\nShape \"cylinder\"\nObjectEnd\nObjectEnd\n"
                                        "ObjectInstance \"b\"\nWorldEnd\n") == 1);
@@ -427,7 +427,7 @@ TEST_CASE("pbrt-v4: textures may be defined after they are used", "[pbrt]") {
     CHECK(deep.error.set);
 }
 
-TEST_CASE("pbrt: missing files are reported even if nothing here reads them", "[pbrt]") {
+TEST_CASE("pbrt: missing files are reported even if they would not be read", "[pbrt]") {
     Recorder v4;
     REQUIRE(v4.load_text(v4_head + "Material \"measured\" \"string filename\" \"gone.bsdf\"\n"
                                    "AreaLightSource \"diffuse\" \"string filename\" \"gone.png\"\n"

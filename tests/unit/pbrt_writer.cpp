@@ -27,7 +27,7 @@ ValueMap copy(const RestageValue* values, std::uint32_t count) {
 
 std::string name_of(const char* name) { return name ? name : ""; }
 
-// What was kept, values ("=id text") first.
+// The kept lines, values ("=id text") first.
 std::string lines_of(const RestageOrigin* origin) {
     std::string out;
     for (std::uint32_t i = 0; origin && i < origin->value_count; ++i)

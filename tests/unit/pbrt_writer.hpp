@@ -71,7 +71,7 @@ class Recorder {
         RestageSceneWriter1 writer = table();
         return restage::pbrt::load(path.c_str(), &writer);
     }
-    // Writes `text` into a folder of its own and loads it.
+    // Writes `text` into a new folder and loads it.
     int load_text(const std::string& text, const std::string& name = "scene.pbrt");
     std::string all_reports() const {
         std::string out;
@@ -83,7 +83,7 @@ class Recorder {
     bool reports(const std::string& part) const { return all_reports().find(part) != std::string::npos; }
 };
 
-// A folder that goes away with the test.
+// A folder that is removed after the test.
 class Folder {
   public:
     std::string file(const std::string& name, const std::string& bytes) const;

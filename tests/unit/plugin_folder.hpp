@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of plugins that a test fills, and a log whose lines it can look at.
+// A folder of plugins for a test, and a log whose lines it can read.
 #pragma once
 
 #include "base/file.hpp"

@@ -55,12 +55,12 @@ TEST_CASE("a material without native code: its table is in the manifest", "[plug
     REQUIRE(found);
     const model::Material& t = *found->table;
     CHECK(std::string(t.label) == "Velvet");
-    CHECK(std::string(t.prefix) == "velvet"); // where none is given, the type
+    CHECK(std::string(t.prefix) == "velvet"); // the type, as none is given
     CHECK((t.lossless && t.tangent && !t.stochastic && !t.transmissive));
     REQUIRE(t.params.size() == 5);
     CHECK(t.params[0].type == model::ParamType::color);
     CHECK(t.params[0].def[2] == 0.3f);
-    CHECK(std::string(t.params[1].label) == "fuzz"); // where none is given, the id
+    CHECK(std::string(t.params[1].label) == "fuzz"); // the id, as none is given
     CHECK((t.params[1].texturable && t.params[1].advanced));
     CHECK((t.params[1].min == 0.5f && t.params[1].max == 2 && t.params[1].def[0] == 1.5f));
     CHECK(std::string(t.params[1].unit) == "m");
@@ -125,14 +125,14 @@ TEST_CASE("an edited material is reloaded; holders of the previous one keep it",
     CHECK(edited->source->glsl()->begin()->second == "// something else");
     CHECK(before->source->glsl()->begin()->second == "// empty");
 
-    // A parameter less; the old table is still whole.
+    // One parameter fewer; the old table is still complete.
     REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(R"([{"id": "fuzz", "type": "float"}])"))));
     REQUIRE(registry.reload_changed().size() == 1);
     CHECK(registry.find_material("velvet")->table->params.size() == 1);
     CHECK(before->table->params.size() == 5);
     CHECK(choices_text(before->table->params[4]) == "plain|twill");
 
-    // Reverted: the same revision as at first.
+    // Reverted: the initial revision.
     REQUIRE(write_file_atomic(where / "plugin.json", json_manifest(velvet(params))));
     REQUIRE(write_file_atomic(where / "velvet.glsl", "// empty"));
     REQUIRE(registry.reload_changed().size() == 1);
@@ -181,7 +181,7 @@ TEST_CASE("a refused plugin is loaded once it is fixed", "[plugin]") {
     CHECK(registry.entries()[0]->state == State::loaded);
 }
 
-TEST_CASE("a library is reloaded a hundred times, and nothing of it remains", "[plugin]") {
+TEST_CASE("a library is reloaded a hundred times without leaks", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("velvet", manifest(), "good");
     const int none = open_copies();
@@ -208,7 +208,7 @@ TEST_CASE("a library is reloaded a hundred times, and nothing of it remains", "[
     CHECK(open_copies() == none);
 }
 
-TEST_CASE("readers of the lists see complete ones while plugins are reloaded", "[plugin]") {
+TEST_CASE("readers see complete catalogues while plugins are reloaded", "[plugin]") {
     const fs::path built = test::build_dir() / "lib/restage/plugins";
     Folder folder;
     for (const char* name : {"importer-pbrt", "exporter-pbrt", "material-diffuse", "material-conductor"})
@@ -225,7 +225,7 @@ TEST_CASE("readers of the lists see complete ones while plugins are reloaded", "
             torn += all->importers.size() != 1 || all->exporters.size() != 1 || all->materials.size() != 2;
             torn += registry.importers().size() != 1 || registry.exporters().size() != 1;
             const auto importer = registry.find_importer("pbrt");
-            // The library lives as long as its entry, whatever is loaded meanwhile.
+            // The library stays open as long as its entry, whatever is loaded meanwhile.
             torn +=
                 !importer || importer->native->probe("x.pbrt", "LookAt", 6) <= 0 || importer->plugin->name().empty();
             torn +=
@@ -252,7 +252,7 @@ TEST_CASE("an importer in use stays open when it is reloaded", "[plugin]") {
     REQUIRE(held);
     const fs::path library = folder.path / "importer-pbrt" / registry.entries()[0]->manifest.library;
     const std::string bytes = read_file(library).value();
-    fs::remove(library); // another file, as a build writes it
+    fs::remove(library); // a new file, as written by a build
     REQUIRE(write_file_atomic(library, bytes));
     const auto news = registry.reload_changed();
     REQUIRE(news.size() == 1);
@@ -263,7 +263,7 @@ TEST_CASE("an importer in use stays open when it is reloaded", "[plugin]") {
 
 namespace {
 
-// Runs f with a temporary folder that is a file, so that nothing can be made in it.
+// Runs f with a file as temporary folder, so that nothing can be created in it.
 template <class F>
 void without_temporary_folder(const Folder& folder, F&& f) {
     const char* before = std::getenv("TMPDIR");
@@ -290,7 +290,7 @@ TEST_CASE("without a temporary folder materials load and reload", "[plugin]") {
             REQUIRE(registry.reload(*registry.entries()[0]));
         }
         const auto said = [&](const char* line) { return std::count(folder.lines.begin(), folder.lines.end(), line); };
-        CHECK(said("org.example.velvet: velvet is here") == 6); // each time a library of its own, not the previous one
+        CHECK(said("org.example.velvet: velvet is here") == 6); // each time a new library, not the previous one
         CHECK(said("org.example.velvet: velvet leaves") == 5);
         CHECK(folder.lines.size() == 12); // nothing else is logged: nothing is lost
     });
@@ -310,7 +310,7 @@ TEST_CASE("a crashed plugin stays off until it changes or is enabled", "[plugin]
         const Entry* entry = scan(registry);
         REQUIRE(entry->state == State::loaded);
         const Blame blame = entry->blame("while it read sofa.vel");
-        REQUIRE(write_file_atomic(blame.file, blame.text + "\nSIGSEGV\n")); // as a crash leaves it
+        REQUIRE(write_file_atomic(blame.file, blame.text + "\nSIGSEGV\n")); // as after a crash
     }
     Registry registry(folder.log, {.quarantine = notes});
     const Entry* off = scan(registry);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// plugin: valid plugins load; foreign, too new, broken or missing ones give one sentence, and nothing crashes.
+// plugin: valid plugins load; foreign, too new, broken or missing ones are refused with one sentence, and nothing
+// crashes.
 #include "plugin/abi.hpp"
 #include "plugin/adapters.hpp"
 #include "plugin/tables.hpp"
@@ -19,7 +20,7 @@ using Catch::Matchers::ContainsSubstring;
 using Folder = restage::test::PluginFolder;
 using restage::test::manifest;
 
-TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plugin]") {
+TEST_CASE("a valid plugin loads, logs through the host and is shut down", "[plugin]") {
     Folder folder;
     const fs::path where = folder.add("materials/velvet", manifest(), "good");
     {
@@ -43,7 +44,7 @@ TEST_CASE("a sound plugin loads, logs through the host and is shut down", "[plug
 
 TEST_CASE("the manifest is validated before the library is opened", "[plugin]") {
     Folder folder;
-    // The library is a good one each time: only the manifest can be the reason.
+    // The library is always valid: only the manifest can be the reason.
     const auto refused = [&](const std::string& json) { return folder.refusal_of(json, "good"); };
     CHECK_THAT(refused("{\n \"id\": }"), ContainsSubstring("plugin.json:2:8: not JSON"));
     CHECK_THAT(refused(""), ContainsSubstring("plugin.json:1:1: not JSON"));
@@ -70,7 +71,7 @@ TEST_CASE("the manifest is validated before the library is opened", "[plugin]") 
                ContainsSubstring("needs restage.toaster/1, which this program does not have"));
     CHECK_THAT(needs(R"("hots": ">=0.2")"),
                ContainsSubstring("\"needs\": the key \"hots\" is unknown; known keys: host, interfaces"));
-    // Manifests from before bundles.
+    // Manifests of 0.1, before bundles.
     CHECK_THAT(refused(R"({"id":"org.example.velvet","kind":"material","version":"1.0.0","licence":"MIT","abi":1,)"
                        R"("library":"velvet"})"),
                ContainsSubstring("belong to Restage 0.1: write, for example, \"provides\""));
@@ -99,14 +100,15 @@ TEST_CASE("an incompatible library is refused with the reason", "[plugin]") {
     CHECK_THAT(refused("bad_param_id"), ContainsSubstring("parameter 0: \"float\" is a reserved word of GLSL"));
     CHECK_THAT(refused("bad_default"), ContainsSubstring("parameter \"fuzz\": its default is out of its range"));
     CHECK_THAT(refused("bad_enum"), ContainsSubstring("parameter \"weave\": its default is not the index of a choice"));
-    CHECK_THAT(refused("table_unread"), ContainsSubstring("has a table as a parameter, and nothing reads it"));
+    CHECK_THAT(refused("table_unread"),
+               ContainsSubstring("has a table parameter, but the plugin provides no reader for it"));
     CHECK_THAT(refused("table_of_none"), ContainsSubstring("reads tables for \"velvet\", which is not one of its"));
     CHECK_THAT(refused("table_default_gone"), ContainsSubstring("gone.dat, is missing"));
     CHECK_THAT(refused("twice"), ContainsSubstring("provides \"velvet\" twice"));
     CHECK_THAT(refused("endless"), ContainsSubstring("without end"));
     CHECK_THAT(refused("unresolved"), ContainsSubstring("a_function_nobody_has"));
     CHECK_THAT(folder.refusal_of(manifest("\"restage.material/1\"", "", "org.example.silk"), "good"),
-               ContainsSubstring("says its id is \"org.example.velvet\""));
+               ContainsSubstring("its id is \"org.example.velvet\""));
     CHECK_THAT(folder.refusal_of(manifest("\"restage.importer/1\""), "good"),
                ContainsSubstring("provides no restage.importer/1"));
 }
@@ -168,7 +170,7 @@ TEST_CASE("a misspelt key of a manifest is named with its place and the nearest 
     CHECK(registry.find_material("velvet"));
 }
 
-TEST_CASE("a plugin that is not built says so, and how to build it", "[plugin]") {
+TEST_CASE("the message for a plugin that is not built says how to build it", "[plugin]") {
     Folder folder;
     CHECK_THAT(folder.refusal_of(manifest(), nullptr),
                ContainsSubstring("the library is missing: the plugin is not built"));
@@ -236,7 +238,7 @@ TEST_CASE("missing GLSL refuses the material", "[plugin]") {
     CHECK_THAT(folder.refusal(), ContainsSubstring("velvet.glsl is missing"));
 }
 
-TEST_CASE("of two plugins with one id the first in the search order wins", "[plugin]") {
+TEST_CASE("of two plugins with the same id the first in the search order is used", "[plugin]") {
     Folder folder;
     const fs::path first = folder.add("a", manifest(), "good");
     folder.add("b", manifest(), "good");
@@ -247,7 +249,7 @@ TEST_CASE("of two plugins with one id the first in the search order wins", "[plu
     CHECK_THAT(registry.entries()[1]->reason, ContainsSubstring("is already loaded from " + first.string()));
 }
 
-TEST_CASE("a broken plugin does not keep a sound one with the same id out", "[plugin]") {
+TEST_CASE("a broken plugin does not block a valid one with the same id", "[plugin]") {
     Folder folder;
     folder.add("a", manifest(), "init_fails");
     const fs::path second = folder.add("b", manifest(), "good");
@@ -295,8 +297,8 @@ TEST_CASE("identifiers and tables are checked against GLSL's rules", "[plugin]")
     CHECK(read_params(&unknown, 1).error().message == "parameter \"a\": its type 99 is unknown");
 }
 
-TEST_CASE("structs that grow at their end are read as far as both sides know them", "[plugin]") {
-    // Built with an SDK to come: two lines, each longer than ours.
+TEST_CASE("structs that grow at their end are read up to the members known to both sides", "[plugin]") {
+    // Built with a future SDK: two lines, each longer than ours.
     struct Longer {
         RestageParam known;
         double more[2];

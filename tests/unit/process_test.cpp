@@ -26,7 +26,7 @@ ProcessOutcome run(const Process& process) {
 
 } // namespace
 
-TEST_CASE("process: both streams and the exit code come back", "[process]") {
+TEST_CASE("process: both streams and the exit code are returned", "[process]") {
     const auto outcome = run(shell("echo one; echo two >&2; exit 3"));
     CHECK(outcome.end == ProcessEnd::exited);
     CHECK(outcome.code == 3);
@@ -37,7 +37,7 @@ TEST_CASE("process: both streams and the exit code come back", "[process]") {
     CHECK(run(shell("true")).ok());
 }
 
-TEST_CASE("process: arguments go through unchanged, variables are set, input is empty", "[process]") {
+TEST_CASE("process: arguments are passed unchanged, variables are set, input is empty", "[process]") {
     Process process{.argv = {"/bin/sh", "-c", "printf '%s|' \"$@\" \"$COLOUR\"; cat", "sh", "a b", "$HOME", "*"}};
     process.environment = {{"COLOUR", "teal"}};
     CHECK(run(process).out == "a b|$HOME|*|teal|");
@@ -46,7 +46,7 @@ TEST_CASE("process: arguments go through unchanged, variables are set, input is 
 TEST_CASE("process: a child has its three streams and no other descriptor, however many are started at once",
           "[process]") {
     if (!std::filesystem::exists("/proc/self/fd")) SKIP("needs /proc");
-    // Pipes of the other threads are open at any moment. What this test itself was started with is in every child.
+    // Pipes of the other threads are open at any moment. Descriptors inherited by this test are in every child.
     const std::string alone = run(shell("exec ls /proc/self/fd")).out;
     std::vector<std::thread> threads;
     std::atomic<int> wrong{0};
@@ -84,7 +84,7 @@ TEST_CASE("process: a signal is named", "[process]") {
     CHECK(outcome.what.starts_with("SIGSEGV ("));
 }
 
-TEST_CASE("process: the limits end it, and what it has started", "[process]") {
+TEST_CASE("process: the limits end it and its children", "[process]") {
     test::TemporaryFolder folder;
     const std::string mark = (folder.path() / "mark").string();
     Process process = shell("(sleep 1; touch " + mark + ") & echo begun; while :; do :; done");
@@ -114,7 +114,7 @@ TEST_CASE("process: the limits end it, and what it has started", "[process]") {
     CHECK_FALSE(std::filesystem::exists(mark));
 }
 
-TEST_CASE("process: regular output keeps it alive under a limit of silence", "[process]") {
+TEST_CASE("process: regular output keeps it running under a limit of silence", "[process]") {
     Process process = shell("for i in 1 2 3 4 5 6; do echo $i; sleep 0.1; done");
     process.silence_limit = 400ms;
     CHECK(run(process).ok());

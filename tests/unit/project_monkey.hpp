@@ -235,7 +235,7 @@ class Monkey {
     }
     void change(const Scene& s, Texture& t) {
         t.name = name();
-        if (pick(2)) t.type = pick(2) ? "imagemap" : "one nobody knows";
+        if (pick(2)) t.type = pick(2) ? "imagemap" : "an unknown one";
         if (pick(2)) t.is_float = !t.is_float;
         if (pick(2)) t.image = any<Image>(s);
         ParamSet without; // textures in textures could make cycles, which validate() refuses
@@ -244,7 +244,7 @@ class Monkey {
     }
     void change(const Scene& s, Material& m) {
         m.name = name();
-        if (pick(2)) m.type = pick(2) ? "plastic" : "one nobody knows";
+        if (pick(2)) m.type = pick(2) ? "plastic" : "an unknown one";
         params(s, m.params);
         m.origin = origin();
     }

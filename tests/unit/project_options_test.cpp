@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of importers in project files: the scene that a file was opened with, or that was inserted, comes back as it
-// was read then; options that no longer fit are reported and kept.
+// Options of importers in project files: opened and inserted scenes are reread with the same options; options that are
+// no longer valid are reported and kept.
 #include "document/clipboard.hpp"
 #include "project_room.hpp"
 
@@ -13,7 +13,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-// Two objects of one material: merged they are one mesh that neither reading of the file as it is has.
+// Two objects of one material: merged they are one mesh, which does not exist without the option.
 constexpr const char* obj = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no a\nf 1 3 2\no b\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 struct Files : Fixture {
@@ -64,14 +64,14 @@ TEST_CASE("a project keeps the options that its scene was read with", "[project]
     REQUIRE(again.save_project(files.at("again.restage")));
     CHECK(files.json("again.restage") == files.json("p.restage"));
 
-    REQUIRE(plain.save_project(files.at("plain.restage"))); // nothing is said where nothing was set
+    REQUIRE(plain.save_project(files.at("plain.restage"))); // no report if nothing was set
     CHECK_FALSE(files.json("plain.restage")["base"].contains("options"));
-    document::Session old(files.registry); // and such a project, as older ones are, reads it as it is
+    document::Session old(files.registry); // and such a project, like older ones, reads it with the defaults
     files.open(old, "plain.restage");
     CHECK(old.scene().instances.live() == 2);
 }
 
-TEST_CASE("a project takes other options for its scene, and is then not saved", "[project][options]") {
+TEST_CASE("a project can be opened with other options, and is then modified", "[project][options]") {
     const Files files;
     document::Session session(files.registry), other(files.registry);
     files.project(session);
@@ -88,14 +88,14 @@ TEST_CASE("a project takes other options for its scene, and is then not saved", 
     files.open(same, "p.restage", {.import_options = other.base().options});
     CHECK_FALSE(same.modified());
     check_same(other.scene(), same.scene());
-    // What the importer does not have is refused, in the words of a file that is opened.
+    // Unknown options are refused with the same message as for a file.
     document::Session wrong(files.registry);
     const auto refused = wrong.open(files.at("p.restage"), {.import_options = files.options({{"height", Value()}})});
     REQUIRE(!refused);
-    CHECK_THAT(refused.error().message, ContainsSubstring("there is no option \"height\"; there are: units="));
+    CHECK_THAT(refused.error().message, ContainsSubstring("there is no option \"height\"; known: units="));
 }
 
-TEST_CASE("a file that is inserted twice with different options is two things in a project", "[project][options]") {
+TEST_CASE("a file inserted twice with different options is stored as two in a project", "[project][options]") {
     const Files files;
     document::Session session(files.registry);
     files.opened(session);
@@ -113,7 +113,7 @@ TEST_CASE("a file that is inserted twice with different options is two things in
     check_same(session.scene(), again.scene());
     REQUIRE(again.save_project(files.at("again.restage")));
     CHECK(files.json("again.restage") == files.json("two.restage"));
-    // The clipboard names files as well, where their contents are too large for it.
+    // The clipboard also refers to files if their contents are too large for it.
     document::DataSources sources = again.sources();
     std::size_t merged = 0;
     again.scene().meshes.each([&](auto, const Mesh& mesh) {
@@ -123,7 +123,8 @@ TEST_CASE("a file that is inserted twice with different options is two things in
     CHECK(merged == 1);
 }
 
-TEST_CASE("options that no longer fit are reported and kept, and another format's are left out", "[project][options]") {
+TEST_CASE("options that are no longer valid are reported and kept, and another format's are dropped",
+          "[project][options]") {
     const Files files;
     document::Session session(files.registry);
     files.project(session);

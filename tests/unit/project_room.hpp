@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene the project tests change, in a folder of its own, and when two scenes are exactly the same.
+// The scene changed by the project tests, in its own folder, and exact comparison of scenes.
 #pragma once
 
 #include "base/file.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Project files: all edits come back exactly, by any path; a base that moved, changed or vanished is reported in one
+// Project files: all edits are restored exactly, by any path; a base that moved, changed or vanished is reported in one
 // sentence; unknown contents are kept.
 #include "io/scene_compare.hpp"
 #include "project_monkey.hpp"
@@ -13,7 +13,7 @@ using namespace restage;
 using namespace restage::test;
 using Catch::Matchers::ContainsSubstring;
 
-TEST_CASE("Any edits come back exactly from a project file", "[project]") {
+TEST_CASE("All edits are restored exactly from a project file", "[project]") {
     const Fixture files;
     const unsigned seed = GENERATE(Catch::Generators::range(1u, 41u));
     INFO("seed " << seed);
@@ -36,7 +36,7 @@ TEST_CASE("Any edits come back exactly from a project file", "[project]") {
     check_same(session.scene(), other.scene());
     CHECK(io::structural_differences(session.scene(), other.scene(), files.registry) == std::vector<std::string>{});
     CHECK_FALSE(other.modified());
-    // Saved again, not a byte differs, also from another folder and back.
+    // Saved again, the bytes are identical, also after moving to another folder and back.
     fs::create_directories(files.folder / "else");
     REQUIRE(other.save_project(files.at("else/again.restage")));
     document::Session third(files.registry);
@@ -61,7 +61,7 @@ TEST_CASE("A scene that has no camera yet is saved and opened", "[project]") {
     check_same(session.scene(), other.scene());
 }
 
-TEST_CASE("A project holds only the changes", "[project]") {
+TEST_CASE("A project contains only the changes", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
     files.opened(session);
@@ -186,7 +186,7 @@ TEST_CASE("A base that moved or changed is reported, and can be replaced", "[pro
         CHECK(part->report.count(io::Fate::dropped) == 1);
         document::Session other(files.registry);
         other.adopt(std::move(*part));
-        CHECK_FALSE(other.find<Instance>(lamp_name)); // that change still fits
+        CHECK_FALSE(other.find<Instance>(lamp_name)); // that change still applies
     }
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("A newer project keeps unknown contents", "[project]") {
     const std::string text = read_file(files.at("p.restage")).value();
     CHECK_THAT(text,
                ContainsSubstring("\"frames\": 12") && ContainsSubstring("\"years\": 30") && ContainsSubstring("0.2"));
-    // What it depended on is gone: so is it, and nothing else.
+    // Its dependency is gone: so it is dropped, and nothing else.
     REQUIRE(other.set_param(other.find<Material>("steel"), "uroughness", Value::number(0.3f)));
     REQUIRE(other.save_project(files.at("p.restage")));
     const std::string same = read_file(files.at("p.restage")).value();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scatter plugin: copies lie uniformly by area in world space, stand on the surface, keep their distance, and are
-// the same for the same seed.
+// The scatter plugin: copies are distributed uniformly by area in world space, stand on the surface, keep their
+// distance, and are the same for the same seed.
 #include "document/actions.hpp"
 #include "paths.hpp"
 #include "scene_room.hpp"
@@ -125,11 +125,11 @@ TEST_CASE("scattered copies are uniform over a mirrored, sheared surface", "[act
         }
         INFO("seed " << seed);
         CHECK(excess(seen, expected) < 4);
-        CHECK(excess(seen, expected) > -4); // nor too even
+        CHECK(excess(seen, expected) > -4); // nor too regular
     }
 }
 
-TEST_CASE("scattered copies fall on triangles by their area in world space, and stand on their outside",
+TEST_CASE("scattered copies are on triangles in proportion to world-space area, on their outside",
           "[action][scatter]") {
     const bool mirrored = GENERATE(false, true);
     const glm::dmat4 to_world = glm::scale(glm::dmat4(1), glm::dvec3(1, 2, mirrored ? -4 : 4));
@@ -171,7 +171,7 @@ TEST_CASE("scattered copies fall on triangles by their area in world space, and 
     CHECK(excess(sums, expected) < 4);
 }
 
-TEST_CASE("scattered copies keep their distance, and say when no more fit", "[action][scatter]") {
+TEST_CASE("scattered copies keep their distance, and it is reported if no more fit", "[action][scatter]") {
     Meadow m(strips(), glm::scale(glm::dmat4(1), glm::dvec3(10, 10, 1)));
     m.set("distance", Value::number(0.2f));
     m.set("count", Value::integer(500));
@@ -199,7 +199,7 @@ TEST_CASE("scattered copies obey scale, rotation, tilt, slope, offset, density a
     Meadow m(ball(24, 48), glm::scale(glm::dmat4(1), glm::dvec3(5)));
     m.set("count", Value::integer(300));
     m.set("scale_min", Value::number(0.5f)), m.set("scale_max", Value::number(2));
-    SECTION("upright, turned, leaning") {
+    SECTION("upright, rotated, tilted") {
         m.set("align", Value::choice("up"));
         m.set("rotation", Value::number(30));
         m.set("tilt", Value::number(10));
@@ -218,7 +218,7 @@ TEST_CASE("scattered copies obey scale, rotation, tilt, slope, offset, density a
         CHECK(leaning >= std::cos(glm::radians(10.01)));
         CHECK(leaning < std::cos(glm::radians(9.0)));
     }
-    SECTION("not where it is steep, and on what is left as dense") {
+    SECTION("none on steep parts, and the same density on the rest") {
         m.set("slope", Value::number(45)); // between two rings of triangles
         m.set("amount", Value::choice("density"));
         m.set("density", Value::number(2));
@@ -228,8 +228,8 @@ TEST_CASE("scattered copies obey scale, rotation, tilt, slope, offset, density a
         // A cap of 45 degrees, of density 2; triangles are a little smaller.
         CHECK(double(places.size()) == Approx(2 * 2 * M_PI * 25 * (1 - std::cos(glm::radians(45.0)))).epsilon(0.02));
     }
-    SECTION("on the surface, or off it, by its lowest point") {
-        // The source stands elsewhere, and its origin is in its middle.
+    SECTION("on the surface, or above it, by its lowest point") {
+        // The source is elsewhere, and its origin is at its centre.
         glm::dmat4 there = glm::translate(glm::dmat4(1), glm::dvec3(100, 50, 7));
         there = glm::scale(there, glm::dvec3(-1, 1, 1));
         REQUIRE(m.session.edit(set_transform(m.session.scene(), m.pin, there)));
@@ -237,10 +237,10 @@ TEST_CASE("scattered copies obey scale, rotation, tilt, slope, offset, density a
         for (const glm::dmat4& place : m.copies()) {
             const glm::dvec3 foot = place[3];
             CHECK(glm::length(foot) == Approx(5.25).epsilon(0.01)); // chords of the ball are a little inside
-            CHECK(glm::determinant(glm::dmat3(place)) < 0);          // as mirrored as what it is a copy of
+            CHECK(glm::determinant(glm::dmat3(place)) < 0);          // mirrored like its original
         }
     }
-    SECTION("a new group, and a source of several parts stays together") {
+    SECTION("a new group; a source of several parts stays together") {
         m.run.selection = {m.room.chair, m.room.chair2, m.pin, m.ground};
         const auto done = m.scatter();
         REQUIRE(done);
@@ -254,7 +254,7 @@ TEST_CASE("scattered copies obey scale, rotation, tilt, slope, offset, density a
             all = chair ? s.groups[i.group].parent : i.group;
             CHECK(s.groups[all].name == "scattered chairs");
         }
-        CHECK(parts.size() > 100); // one group a copy of the two chairs
+        CHECK(parts.size() > 100); // one group per copy of the two chairs
         for (const auto& [group, count] : parts)
             CHECK(count == 2);
         m.set("group", Value::boolean(false));
@@ -283,10 +283,10 @@ TEST_CASE("the same seed scatters the same copies, on any machine", "[action][sc
     CHECK(bytes(1) != bytes(2));
 }
 
-TEST_CASE("scatter says what it cannot do", "[action][scatter]") {
+TEST_CASE("scatter reports impossible requests", "[action][scatter]") {
     Meadow m(strips());
     m.run.selection = {m.ground};
-    CHECK_THAT(m.refusal(), ContainsSubstring("two objects at least"));
+    CHECK_THAT(m.refusal(), ContainsSubstring("at least two objects"));
     m.run.selection = {};
     CHECK_THAT(m.refusal(), ContainsSubstring("nothing is selected"));
     m.run.selection = {m.pin, m.ground};

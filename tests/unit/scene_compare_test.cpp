@@ -30,7 +30,7 @@ Scene with_value(const Value& value) {
 
 } // namespace
 
-TEST_CASE("compare: another value of any type is a difference", "[compare]") {
+TEST_CASE("compare: a different value of any type is a difference", "[compare]") {
     Log log;
     const plugin::Registry registry(log);
     const std::pair<Value, Value> pairs[] = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies of tables and scenes share what has not changed: a frame of a drag among many objects copies none of the
+// Copies of tables and scenes share unchanged data: a frame of a drag among many objects copies none of the
 // others.
 #include "document/session.hpp"
 #include "io/services.hpp"
@@ -109,7 +109,7 @@ TEST_CASE("a table may be changed while it is walked: the walk visits the old it
     CHECK(table.live() == 300);
 }
 
-TEST_CASE("a table that was moved from is empty") {
+TEST_CASE("a moved-from table is empty") {
     Table<Counted> table = numbers(3);
     const Table<Counted> other = std::move(table);
     CHECK(other.live() == 3);
@@ -124,7 +124,7 @@ TEST_CASE("a frame of a drag among many objects copies no other object") {
     const plugin::Registry registry(log, io::with_services());
     document::Session session(registry);
     session.adopt(crowd(20'000));
-    Scene shown = session.scene(); // what the live picture has
+    Scene shown = session.scene(); // the live picture's copy
     glm::dmat4 by(1);
     by[3].x = 1;
     for (int frame = 1; frame <= 3; ++frame) {

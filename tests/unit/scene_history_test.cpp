@@ -104,7 +104,7 @@ TEST_CASE("a drag is one edit, and one that returns to its start is no edit", "[
     CHECK(same(start, r.scene));
     history.push(r.scene, *set_transform(r.scene, r.chair, glm::translate(glm::dmat4(1), {1, 0, 0})), "d");
     history.push(r.scene, *set_transform(r.scene, r.chair, glm::dmat4(1)), "d");
-    CHECK(history.size() == 0); // also: pushing dropped what could be redone
+    CHECK(history.size() == 0); // also: pushing dropped the redo history
     CHECK(same(start, r.scene));
     CHECK_FALSE(history.push(r.scene, *set_transform(r.scene, r.chair, glm::dmat4(1)))); // changes nothing
     CHECK(history.size() == 0);
@@ -181,7 +181,7 @@ TEST_CASE("clean means equal to the file", "[scene]") {
     history.undo(r.scene);
     CHECK(history.clean());
     history.undo(r.scene);
-    change(3); // the saved state can no longer be reached
+    change(3); // the saved state is no longer reachable
     CHECK_FALSE(history.clean());
     history.undo(r.scene);
     CHECK_FALSE(history.clean());
@@ -203,7 +203,7 @@ TEST_CASE("the history keeps its byte budget", "[scene]") {
     CHECK(history.size() == 3);
     CHECK(history.clean_position() == 1);
 
-    REQUIRE(change(4)); // the edit to 1 goes; the saved state is the oldest that can be reached
+    REQUIRE(change(4)); // the edit to 1 is dropped; the saved state is the oldest reachable one
     CHECK(history.dropped() == 1);
     CHECK((history.size() == 3 && history.position() == 3));
     CHECK(history.bytes() <= history.budget());
@@ -216,7 +216,7 @@ TEST_CASE("the history keeps its byte budget", "[scene]") {
     }
     CHECK(r.scene.film.value.width == 4);
 
-    REQUIRE(change(5)); // the saved state goes as well
+    REQUIRE(change(5)); // the saved state is dropped as well
     CHECK(history.dropped() == 2);
     CHECK_FALSE(history.clean_position());
     while (history.undo(r.scene)) {
@@ -237,7 +237,7 @@ TEST_CASE("the history keeps its byte budget", "[scene]") {
     CHECK(history.bytes() == one);
 }
 
-TEST_CASE("geometry counts once, and only while the history alone holds it", "[scene]") {
+TEST_CASE("geometry counts once, and only while only the history holds it", "[scene]") {
     Room r;
     History history;
     auto data = test::triangle();
@@ -255,7 +255,7 @@ TEST_CASE("geometry counts once, and only while the history alone holds it", "[s
     REQUIRE(history.undo(r.scene));
     CHECK(history.bytes() < heavy);
     REQUIRE(history.redo(r.scene));
-    history.set_budget(heavy); // not even the edit that removed it goes: it is the newest
+    history.set_budget(heavy); // even the edit that removed it stays: it is the newest
     CHECK((history.size() == 1 && history.dropped() == 1));
     CHECK(history.bytes() > heavy);
 }
@@ -273,7 +273,7 @@ TEST_CASE("a drag beyond the budget is still one edit that can be cancelled", "[
     REQUIRE((change(3, "drag") && change(4, "drag")));
     CHECK((history.size() == 1 && history.dropped() == 1));
     CHECK_FALSE(history.clean());
-    REQUIRE(history.cancel_gesture(r.scene)); // what could be redone, and is what the file holds, comes back
+    REQUIRE(history.cancel_gesture(r.scene)); // the redo history, which contains the saved state, is restored
     CHECK(r.scene.film.value.width == 1);
     CHECK((history.size() == 1 && history.position() == 0));
     REQUIRE(history.redo(r.scene));

@@ -80,7 +80,7 @@ TEST_CASE("things in use are not removed", "[scene]") {
     apply(r.scene, *set_param(r.scene, Id<Material>{3}, "first", steel));
     apply(r.scene, *set_material(r.scene, std::array{r.lamp}, r.oak));
     CHECK_FALSE(remove(r.scene, r.steel));
-    apply(r.scene, remove_unused(r.scene)); // blend and steel only hold each other
+    apply(r.scene, remove_unused(r.scene)); // blend and steel only refer to each other
     CHECK(r.scene.materials.live() == 1);
     CHECK(validate(r.scene).empty());
 }
@@ -98,7 +98,7 @@ TEST_CASE("removing the last of a group removes the group", "[scene]") {
     CHECK_FALSE(remove_instances(r.scene, std::array{r.lamp}));
 }
 
-TEST_CASE("a duplicate shares geometry, moves in world space and takes whole groups along", "[scene]") {
+TEST_CASE("a duplicate shares geometry, moves in world space and includes whole groups", "[scene]") {
     Room r;
     apply(r.scene, *set_transform(r.scene, r.chair, glm::scale(glm::dmat4(1), {2, 2, 2})));
     const auto copies =
@@ -176,10 +176,10 @@ TEST_CASE("free names for many copies are found quickly", "[edits]") {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 1; i <= 20000; ++i)
         CHECK_FALSE(next_name("oak " + std::to_string(i), taken, &tried).empty());
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2)); // 200 million questions took a minute
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2)); // 200 million lookups took a minute
     CHECK(taken.size() == 40001);
     CHECK(taken.contains("oak 40000"));
-    // The same names with and without the memory.
+    // The same names with and without the cache.
     tried.clear();
     for (const char* name : {"elm", "elm", "elm 2", "elm 3", "elm", "elm 9", "elm 4", "elm"}) {
         std::set<std::string> plain = again;

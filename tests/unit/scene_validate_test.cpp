@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene: validate is silent about a valid scene and names the errors of an invalid one.
+// scene: validate reports nothing for a valid scene and names the errors of an invalid one.
 #include "scene/edits.hpp"
 #include "scene/validate.hpp"
 #include "scene_room.hpp"
@@ -25,7 +25,7 @@ constexpr auto warning = Problem::Severity::warning;
 
 } // namespace
 
-TEST_CASE("validate is silent about a valid scene and names the errors of an invalid one", "[scene]") {
+TEST_CASE("validate reports nothing for a valid scene and names the errors of an invalid one", "[scene]") {
     Room r;
     REQUIRE(validate(r.scene).empty());
     const auto with = [&](auto&& change) {
@@ -85,7 +85,7 @@ TEST_CASE("validate is silent about a valid scene and names the errors of an inv
     CHECK(mentions(many, error, "92 more of this kind"));
 }
 
-TEST_CASE("check_mesh finds the first thing that is wrong", "[scene]") {
+TEST_CASE("check_mesh finds the first error", "[scene]") {
     MeshData data = *test::triangle();
     CHECK(check_mesh(data).empty());
     data.triangles.push_back({0, 1, 3});
@@ -147,7 +147,7 @@ TEST_CASE("an edit with values that cannot be rendered is refused with a message
     refused(insert(r.scene, Mesh{.name = "m", .data = std::make_shared<MeshData>()}, ""), "has no triangles");
     refused(insert(r.scene, Image{.name = "i", .data = std::make_shared<PixelData>()}, ""), "channels");
 
-    // Invalid contents of a file may be moved, renamed and fixed, but not made worse.
+    // Invalid contents of a file may be moved, renamed and fixed, but not get new errors.
     apply(r.scene, *set_emission(r.scene, r.lamp, Emission{{1, 1, -0.01f}, false}));
     CHECK(check_edit(*set_transform(r.scene, r.lamp, glm::dmat4(1))));
     CHECK(check_edit(*set_emission(r.scene, r.lamp, Emission{{1, 1, 0}, false})));

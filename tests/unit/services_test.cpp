@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Services for plugins: the decoder of pictures, as a plugin asks for it and as it answers.
+// Services for plugins: the image decoder, as requested by a plugin, and its results.
 #include "io/services.hpp"
 #include "plugin_folder.hpp"
 
@@ -23,7 +23,8 @@ const std::filesystem::path folder_of_images = restage::test::source_dir() / "te
 
 } // namespace
 
-TEST_CASE("a program that decodes pictures lends its decoder to plugins, and one that does not says so", "[services]") {
+TEST_CASE("a program with an image decoder offers it to plugins; one without it refuses plugins that need it",
+          "[services]") {
     test::PluginFolder folder;
     const auto json =
         test::manifest(R"("restage.material/1")", R"("host": ">=0.2", "interfaces": ["restage.image/1"])");
@@ -40,13 +41,13 @@ TEST_CASE("a program that decodes pictures lends its decoder to plugins, and one
     CHECK(std::count(folder.lines.begin(), folder.lines.end(), said) == 1);
 }
 
-TEST_CASE("a plugin that only asks is told that there is none", "[services]") {
+TEST_CASE("a plugin that does not require the service gets NULL", "[services]") {
     test::PluginFolder folder;
     folder.add("p", test::manifest(R"("restage.material/1")"), "pictures");
-    CHECK_THAT(folder.refusal(), ContainsSubstring("its init function reports failure")); // it was given NULL
+    CHECK_THAT(folder.refusal(), ContainsSubstring("its init function reports failure")); // it received NULL
 }
 
-TEST_CASE("the decoder gives texels as they are stored, and errors name the file", "[services]") {
+TEST_CASE("the decoder returns texels as stored, and errors name the file", "[services]") {
     const RestageImageService1& service = images();
     const auto path = folder_of_images / "grey16.png";
     RestageDecodedImage image{};
@@ -80,10 +81,10 @@ TEST_CASE("the decoder gives texels as they are stored, and errors name the file
     CHECK(image.problem == nullptr);
 }
 
-TEST_CASE("a plugin with a shorter struct is given what it knows of", "[services]") {
+TEST_CASE("a plugin with a shorter struct gets the members it knows", "[services]") {
     const auto path = folder_of_images / "grey16.png";
     RestageDecodedImage image{};
-    image.size = offsetof(RestageDecodedImage, channels); // of a header that ended there
+    image.size = offsetof(RestageDecodedImage, channels); // from a header that ended there
     image.channels = 77;
     REQUIRE(images().decode(nullptr, nullptr, 0, path.string().c_str(), &image) == 1);
     CHECK(image.width == 16);

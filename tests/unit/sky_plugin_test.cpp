@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies that plugins make: the sun in the picture, what the host takes and refuses, edits, projects and --set. Of every
-// sky plugin that is there.
+// Skies of plugins: the sun in the image, values accepted and refused by the host, edits, projects and --set, for every
+// available sky plugin.
 #include "document/assign.hpp"
 #include "document/sky.hpp"
 #include "io/scene_compare.hpp"
@@ -45,7 +45,7 @@ const Image& sky_image(const Scene& s) { return s.images[s.environment.value->im
 
 } // namespace
 
-TEST_CASE("a sun's energy is in the picture, however large, coarse and wherever it is", "[skies]") {
+TEST_CASE("a sun's energy is in the image, for any size, resolution and position", "[skies]") {
     for (const double radius : {0.0005, 0.00465, 0.02, 0.5, pi / 2})
         for (const std::uint32_t width : {1u, 16u, 100u, 512u})
             for (const glm::dvec3& to :
@@ -58,7 +58,7 @@ TEST_CASE("a sun's energy is in the picture, however large, coarse and wherever 
                 INFO(radius << " " << width);
                 CHECK(glm::length(energy(picture) - wanted) < 1e-4 * glm::length(wanted));
             }
-    // And it is where it should be: the picture's centre of light is the sun's direction.
+    // And it is in the right place: the image's centre of light is the sun's direction.
     for (const glm::dvec3& to : {glm::dvec3(0.3, -0.5, 0.8), glm::dvec3(0.01, 0.02, -1), glm::dvec3(1, 1e-9, 0)}) {
         const io::Sun sun{glm::normalize(to), {1, 1, 1}, 0.02};
         PixelData picture = black(512);
@@ -73,7 +73,7 @@ TEST_CASE("a sun's energy is in the picture, however large, coarse and wherever 
     }
 }
 
-TEST_CASE("the map is one to one, of equal areas, with +z in the middle", "[skies]") {
+TEST_CASE("the map is bijective and equal-area, with +z in the middle", "[skies]") {
     CHECK(io::octahedral_direction(4, 2, 2) == glm::dvec3(0, 0, 1));
     CHECK(io::octahedral_direction(4, 0, 0).z == -1);
     CHECK(glm::length(io::octahedral_direction(4, 4, 2) - glm::dvec3(1, 0, 0)) < 1e-12);
@@ -93,7 +93,7 @@ TEST_CASE("the map is one to one, of equal areas, with +z in the middle", "[skie
             CHECK_THAT(second[i][j], WithinAbs(i == j ? 1. / 3 : 0, 1e-4));
 }
 
-TEST_CASE("a coarse sky has the light of the fine one", "[skies]") {
+TEST_CASE("a coarse sky has the energy of the fine one", "[skies]") {
     PixelData fine = black(512);
     io::draw_sun(fine, {glm::normalize(glm::dvec3(1, 2, 3)), {1, 2, 3}, 0.01});
     const PixelData coarse = io::coarse_sky(fine, 32);
@@ -102,7 +102,7 @@ TEST_CASE("a coarse sky has the light of the fine one", "[skies]") {
     CHECK(io::coarse_sky(coarse, 32).values == coarse.values);
 }
 
-TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its values", "[skies]") {
+TEST_CASE("every sky plugin sets a scene's sky as one undo step, and projects keep its values", "[skies]") {
     const Fixture f;
     const auto catalogue = f.registry.catalogue();
     REQUIRE(!catalogue->skies.empty());
@@ -120,7 +120,7 @@ TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its va
         CHECK(glm::length(glm::dmat3(first.light_to_world) * glm::dvec3(0, 0, 1) - up) < 1e-12);
         CHECK(session.scene().images.live() == images + 1);
 
-        // A value: the picture is replaced in its place, rotation and strength stay.
+        // A value: the image is replaced in place; rotation and strength are kept.
         Environment turned = first;
         turned.scale = glm::vec3(2);
         turned.light_to_world = scene::upright_sky({1, 0, 0});
@@ -140,7 +140,7 @@ TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its va
         CHECK(second.sky_params == values);
         CHECK(session.scene().images.live() == images + 1);
 
-        // A project holds no picture of it that matters, and gives the same pixels.
+        // A project does not need its image, and gives the same pixels.
         const std::string path = f.at("sky.restage");
         REQUIRE(session.save_project(path));
         CHECK(fs::file_size(path) < 40000);
@@ -152,7 +152,7 @@ TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its va
         CHECK(again.report().count(io::Fate::approximated) == session.report().count(io::Fate::approximated));
         CHECK(io::structural_differences(session.scene(), again.scene(), f.registry, {.names = true}).empty());
 
-        // Without the plugin: a coarse picture of it, and nothing is lost.
+        // Without the plugin: a coarse image of it, and nothing is lost.
         plugin::Registry none(const_cast<Log&>(f.log));
         fs::create_directories(f.folder / "plugins");
         for (const char* needed : {"importer-pbrt", "material-diffuse", "material-conductor"})
@@ -166,14 +166,14 @@ TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its va
         CHECK(glm::length(energy(*sky_image(without.scene()).data) - energy(*sky_image(session.scene()).data)) <
               1e-3 * glm::length(energy(*sky_image(session.scene()).data)));
         CHECK(std::ranges::any_of(without.report().entries, [](const io::ReportEntry& e) {
-            return e.note.find("no plugin makes it; a coarse picture of it stands in") != std::string::npos;
+            return e.note.find("its plugin is missing; a coarse saved picture replaces it") != std::string::npos;
         }));
         REQUIRE(without.save_project(f.at("sky2.restage")));
         document::Session back(f.registry);
         REQUIRE(back.open(f.at("sky2.restage")));
         CHECK(sky_image(back.scene()).data->values == sky_image(session.scene()).data->values);
 
-        // Undo leads back, and another sky takes the picture along.
+        // Undo restores it, and another sky removes the image.
         while (session.undo()) {
         }
         CHECK(session.scene().images.live() == images);
@@ -191,7 +191,7 @@ TEST_CASE("every sky plugin fills a scene, as one step, and projects keep its va
     }
 }
 
-TEST_CASE("values that a sky does not take are refused by name", "[skies]") {
+TEST_CASE("invalid values of a sky are refused by name", "[skies]") {
     const Fixture f;
     const Scene s;
     const auto refusal = [&](const char* type, const char* id, Value value) {
@@ -200,9 +200,8 @@ TEST_CASE("values that a sky does not take are refused by name", "[skies]") {
         const auto edit = document::plugin_sky(s, f.registry, type, values, {0, 1, 0});
         return edit ? std::string() : edit.error().message;
     };
-    CHECK_THAT(refusal("sunski", "x", {}), ContainsSubstring("there is no sky \"sunski\"; there are: sunsky"));
-    CHECK_THAT(refusal("sunsky", "elevatoin", Value::number(3)),
-               ContainsSubstring("there are: mode, azimuth, elevation"));
+    CHECK_THAT(refusal("sunski", "x", {}), ContainsSubstring("there is no sky \"sunski\"; known: sunsky"));
+    CHECK_THAT(refusal("sunsky", "elevatoin", Value::number(3)), ContainsSubstring("known: mode, azimuth, elevation"));
     CHECK_THAT(refusal("sunsky", "elevation", Value::number(91)), ContainsSubstring("out of its range, -18"));
     CHECK_THAT(refusal("sunsky", "mode", Value::choice("moon")), ContainsSubstring("direction|place"));
 }
@@ -222,7 +221,7 @@ TEST_CASE("a scene gets a plugin's sky and its values by --set", "[skies]") {
     CHECK(set("sky.sun=false").empty());
     CHECK(session.scene().environment.value->sky_params.number("elevation", 0) == 20);
     CHECK(sky_image(session.scene()).data->values != before->values);
-    CHECK(sky_image(session.scene()).data->width == 512); // no sun that asks for more
+    CHECK(sky_image(session.scene()).data->width == 512); // without a sun that requires more
     CHECK(before->width == 1024);
     CHECK(set("sky.rotation=30").empty());
     CHECK_THAT(set("sky.elevation=200"), ContainsSubstring("out of its range"));
@@ -230,7 +229,7 @@ TEST_CASE("a scene gets a plugin's sky and its values by --set", "[skies]") {
     CHECK_THAT(set("sky.colour=1"), ContainsSubstring("mode, azimuth"));
 }
 
-TEST_CASE("stopping is heard while a sky is made", "[skies]") {
+TEST_CASE("generating a sky can be cancelled", "[skies]") {
     const Fixture f;
     for (const plugin::SkyEntry& sky : f.registry.catalogue()->skies) {
         int calls = 0;

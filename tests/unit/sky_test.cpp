@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skies made by the editor: the up axis, what is kept of the previous sky, and that an image is added once.
+// Skies set by the editor: the up axis, values kept from the previous sky, and that an image is added once.
 #include "scene/sky.hpp"
 #include "scene/edits.hpp"
 #include "scene/history.hpp"
@@ -50,10 +50,11 @@ TEST_CASE("an image as sky keeps an image's rotation and strength, not a plain s
     CHECK(s.images.live() == 2);
     history.push(s, scene::image_sky(s, "/skies/square.exr", pixels(4, 4), {0, 1, 0}));
     CHECK(s.environment.value->mapping == scene::Mapping::octahedral);
-    CHECK(s.environment.value->light_to_world == scene::upright_sky({0, 1, 0})); // another mapping: not that rotation
+    CHECK(s.environment.value->light_to_world ==
+          scene::upright_sky({0, 1, 0})); // a different mapping: the rotation is not kept
 }
 
-TEST_CASE("a new document has a studio around it that shines from above", "[sky]") {
+TEST_CASE("a new document has a studio that lights it from above", "[sky]") {
     const Scene s = scene::studio_scene();
     REQUIRE(s.environment.value);
     const Image& image = s.images[s.environment.value->image];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The model behind the sky "sunsky": where the sun stands, what comes through the air, and what the sky adds up to.
+// The model of the sky "sunsky": the sun's position, transmission of the atmosphere, and the total illuminance.
 #include "sunsky/daylight.hpp"
 #include "sunsky/solar_position.hpp"
 
@@ -25,7 +25,7 @@ SunPosition at(double latitude, double longitude, Moment when) { return sun_at({
 
 } // namespace
 
-TEST_CASE("the sun stands where almanacs have it", "[sunsky]") {
+TEST_CASE("the sun's position agrees with almanacs", "[sunsky]") {
     // NREL's Solar Position Algorithm (Reda, Andreas 2004), its worked example: zenith 50.11162, azimuth 194.34024
     // degrees, of which 0.016 are refraction.
     const SunPosition golden = at(39.742476, -105.1786, {2003, 10, 17, 12 + 30.0 / 60 + 30.0 / 3600, -7});
@@ -37,7 +37,7 @@ TEST_CASE("the sun stands where almanacs have it", "[sunsky]") {
     CHECK_THAT(degrees(at(0, 0, {2026, 12, 21, 20.83, 0}).declination), WithinAbs(-23.436, 0.01));
     CHECK_THAT(degrees(at(0, 0, {2026, 3, 20, 14.77, 0}).declination), WithinAbs(0, 0.01));
 
-    // At noon by the sun it is due south of the northern tropic, at 90 - latitude + declination.
+    // At solar noon it is due south, north of the tropic, at 90 - latitude + declination.
     double highest = -90, azimuth = 0;
     for (double hour = 11; hour < 13; hour += 0.005)
         if (const SunPosition sun = at(51.4769, 0, {2026, 6, 21, hour, 0}); degrees(sun.elevation) > highest)
@@ -45,7 +45,7 @@ TEST_CASE("the sun stands where almanacs have it", "[sunsky]") {
     CHECK_THAT(highest, WithinAbs(90 - 51.4769 + 23.436, 0.02));
     CHECK_THAT(std::abs(azimuth), WithinAbs(180, 0.3));
 
-    // The clock's zone is subtracted, the seasons are the other way round in the south, and the day has two halves.
+    // The time zone is subtracted, seasons are reversed in the south, and the day is symmetric.
     CHECK(at(48, 15, {2026, 6, 21, 14, 2}).elevation == Approx(at(48, 15, {2026, 6, 21, 12, 0}).elevation));
     CHECK(at(-33, 151, {2026, 12, 21, 12, 10}).elevation > at(-33, 151, {2026, 6, 21, 12, 10}).elevation + 0.7);
     CHECK(at(48, 15, {2026, 6, 21, 8, 1}).azimuth > 0); // east
@@ -53,7 +53,7 @@ TEST_CASE("the sun stands where almanacs have it", "[sunsky]") {
     CHECK(at(48, 15, {2026, 6, 21, 0, 1}).elevation < 0);
 }
 
-TEST_CASE("days are counted from 2000 through leap years, and a month ends where it ends", "[sunsky]") {
+TEST_CASE("days are counted from 2000 including leap years, and dates are clamped to the month", "[sunsky]") {
     CHECK(days_since_2000({2000, 1, 1, 12, 0}) == 0);
     CHECK(days_since_2000({2000, 12, 31, 12, 0}) == 365);
     CHECK(days_since_2000({2026, 1, 1, 0, 0}) == 9496.5);
@@ -61,7 +61,7 @@ TEST_CASE("days are counted from 2000 through leap years, and a month ends where
     CHECK(days_since_2000({2024, 2, 31, 12, 0}) == days_since_2000({2024, 2, 29, 12, 0}));
 }
 
-TEST_CASE("sunlight is what is measured, and less of it comes through more air", "[sunsky]") {
+TEST_CASE("sunlight agrees with measurements, and decreases with air mass", "[sunsky]") {
     // The luminous solar constant: 133.1 klx (Darula, Kittler, Gueymard 2005); every 10 nm of the spectrum up to 750
     // and fitted matching functions are 4 % short of it. Above the air the sun is white, x = y = 0.32 to 0.33.
     const Color above = sun_xyz_above_atmosphere();
@@ -83,8 +83,8 @@ TEST_CASE("sunlight is what is measured, and less of it comes through more air",
     }
 }
 
-TEST_CASE("the sky's light is what is measured: IES, and Bird's model", "[sunsky]") {
-    // IES 1984, clear sky: 0.8 + 15.5 sqrt(sin h) klx. Turbidity 2 to 3 is what that means by clear.
+TEST_CASE("the sky's illuminance agrees with the IES formula and Bird's model", "[sunsky]") {
+    // IES 1984, clear sky: 0.8 + 15.5 sqrt(sin h) klx. Its clear sky corresponds to turbidity 2 to 3.
     for (const double elevation : {5., 10., 20., 30., 45., 60., 75., 90.}) {
         const double ies = 800 + 15500 * std::sqrt(std::sin(radians(elevation)));
         INFO(elevation << " degrees, IES " << ies);
@@ -92,7 +92,7 @@ TEST_CASE("the sky's light is what is measured: IES, and Bird's model", "[sunsky
         CHECK(sky_illuminance(radians(elevation), 3) > 0.75 * ies);
         CHECK(sky_illuminance(radians(elevation), 3) < 1.5 * ies);
     }
-    // What came from the sun and from the sky was in the beam before.
+    // Light of the sun and the sky together is at most that of the unattenuated beam.
     for (const double turbidity : {2., 3., 6., 10.})
         for (const double elevation : {2., 10., 45., 90.})
             CHECK(sky_illuminance(radians(elevation), turbidity) +
@@ -100,13 +100,13 @@ TEST_CASE("the sky's light is what is measured: IES, and Bird's model", "[sunsky
                   sun_xyz_above_atmosphere()[1] * solid_angle() * std::sin(radians(elevation)));
 }
 
-TEST_CASE("the sky adds up to its light, the ground to its share, whatever the sun does", "[sunsky]") {
+TEST_CASE("the sky integrates to its illuminance, the ground to its reflection, for any sun", "[sunsky]") {
     for (const double turbidity : {2., 3.5, 10.})
         for (const double elevation : {-18., -5., 0., 3., 40., 90.}) {
             const Daylight light_of_day(
                 {.azimuth = 1, .elevation = radians(elevation), .turbidity = turbidity, .albedo = {0.5, 0.25, 0.1}});
             INFO(turbidity << " " << elevation);
-            // Level light by numeric integration over elevation and azimuth, in double.
+            // Horizontal illuminance by numerical integration over elevation and azimuth, in double.
             Color sum{};
             constexpr int rows = 400, columns = 400;
             for (int i = 0; i < rows; ++i)
@@ -131,7 +131,7 @@ TEST_CASE("the sky adds up to its light, the ground to its share, whatever the s
         }
 }
 
-TEST_CASE("twilight fades without a step, and the sun sets behind the horizon", "[sunsky]") {
+TEST_CASE("twilight is continuous, and the sun sets behind the horizon", "[sunsky]") {
     double before = 0;
     for (double elevation = -18; elevation <= 20; elevation += 0.05) {
         const double now = luminance(Daylight({.elevation = radians(elevation)}).from_sky());

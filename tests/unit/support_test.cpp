@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far things fall until they stand on something, and what touches what.
+// Dropping things onto their support, and touching things.
 #include "query/support.hpp"
 #include "query/touching.hpp"
 #include "scene_room.hpp"
@@ -47,10 +47,10 @@ struct Boxes {
 
 } // namespace
 
-TEST_CASE("things stand on spheres as rendered, not on their stand-in grids", "[support]") {
+TEST_CASE("things stand on spheres as rendered, not on their tessellation", "[support]") {
     Boxes b;
     const auto ball = [&](const char* name, double radius, glm::dvec3 centre) {
-        auto data = std::make_shared<MeshData>(); // a coarse grid, as importers give: here an octahedron
+        auto data = std::make_shared<MeshData>(); // a coarse tessellation, as from importers: here an octahedron
         const float r = float(radius);
         data->positions = {{r, 0, 0}, {0, r, 0}, {0, 0, r}, {-r, 0, 0}, {0, -r, 0}, {0, 0, -r}};
         data->triangles = {{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {4, 0, 2}, {1, 0, 5}, {3, 1, 5}, {4, 3, 5}, {0, 4, 5}};
@@ -82,7 +82,7 @@ TEST_CASE("things fall until they stand on something", "[support]") {
         // A post thinner than its load, under no corner of it.
         const auto post = b.box("post", {0.9, 1.1, 0}, {0.905, 1.105, 0.4});
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(0.6));
-        // Objects falling with it carry nothing.
+        // Objects that fall with it support nothing.
         CHECK(*query::fall_distance(b.scene, Ids{slab[0], post}, up) == Approx(0).margin(1e-9));
         apply(b.scene, *set_hidden(b.scene, Ids{post}, true));
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
@@ -90,7 +90,7 @@ TEST_CASE("things fall until they stand on something", "[support]") {
         // The slab does not stand on a plate on top of it, no matter how thin both are.
         b.box("plate", {0.5, 0.5, 1.1}, {0.7, 0.7, 1.101});
         CHECK(*query::fall_distance(b.scene, slab, up) == Approx(1));
-        // Sunk in a little: out again. Through the floor would be the only other way.
+        // Slightly sunk in: lifted out.
         const Ids chest{b.box("chest", {5, 5, -0.05}, {6, 6, 0.95})};
         CHECK(*query::fall_distance(b.scene, chest, up) == Approx(-0.05));
         CHECK_FALSE(query::fall_distance(b.scene, Ids{b.box("outside", {20, 0, 0}, {21, 1, 1})}, up));
@@ -98,7 +98,7 @@ TEST_CASE("things fall until they stand on something", "[support]") {
     }
 }
 
-TEST_CASE("what touches a thing is its parts, not the floor it stands on", "[touching]") {
+TEST_CASE("things that touch are parts of a whole, but not the floor they stand on", "[touching]") {
     Boxes b;
     const auto floor = b.box("floor", {-10, -10, -0.1}, {10, 10, 0});
     Ids chair{b.box("seat", {0, 0, 0.45}, {0.5, 0.5, 0.5})};
@@ -121,7 +121,7 @@ TEST_CASE("what touches a thing is its parts, not the floor it stands on", "[tou
     CHECK(query::touching(b.scene, {}).empty());
     // Of the floor everything on it is a part.
     CHECK(query::touching(b.scene, Ids{floor}).size() == chair.size() + 1);
-    // Objects locked in the editor are skipped, and lead nowhere.
+    // Objects locked in the editor are skipped, and not followed.
     const auto found = query::touching(b.scene, Ids{chair[6]}, [&](Id<Instance> id) { return id == chair[0]; });
     CHECK(found.empty());
 }

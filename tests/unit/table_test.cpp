@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that plugins read (restage/table.h), by the example of MERL's files: valid ones become words, invalid ones
-// an error, and pbrt files, exports and projects keep the path.
+// Tables read by plugins (restage/table.h), with MERL's files as example: valid ones become words, invalid ones
+// an error; pbrt files, exports and projects keep the path.
 #include "document/session.hpp"
 #include "export_scene.hpp"
 #include "io/import.hpp"
@@ -57,7 +57,7 @@ void put(std::string& bytes, std::size_t plane, std::size_t index, double value)
 
 } // namespace
 
-TEST_CASE("a MERL file becomes words, each in its place", "[table]") {
+TEST_CASE("a MERL file becomes words in the right order", "[table]") {
     Reading r;
     const auto table =
         r.read(merl_bytes(small, [](double h, double d, double p, int c) { return h + 10 * d + 100 * p + c; }));
@@ -111,11 +111,11 @@ TEST_CASE("a file that is not MERL is refused with a message", "[table]") {
         std::memcpy(bytes.data(), n.data(), 12);
         CHECK_THAT(r.refusal(bytes), ContainsSubstring("not a MERL file"));
     }
-    std::string big = lambert(); // many, but believable: the file is too short for them
+    std::string big = lambert(); // many, but plausible: the file is too short for them
     const test::MerlCounts n{4096, 4096, 4096};
     std::memcpy(big.data(), n.data(), 12);
     CHECK_THAT(r.refusal(big), ContainsSubstring("cut short"));
-    for (std::uint32_t seed = 0; seed < 300; ++seed) { // noise: any answer, but no crash
+    for (std::uint32_t seed = 0; seed < 300; ++seed) { // noise: any result, but no crash
         std::string noise;
         for (std::uint32_t i = 0; i < seed; ++i)
             noise += static_cast<char>(hash64(&i, sizeof i, seed) & 255);
@@ -130,7 +130,7 @@ TEST_CASE("a file that is not MERL is refused with a message", "[table]") {
     CHECK(r.reader.read("filename", "").value()->words.empty());
 }
 
-TEST_CASE("a table is read once, and again when its file changes; not after its plugin is gone", "[table]") {
+TEST_CASE("a table is read once, and reread when its file changes; not after its plugin is unloaded", "[table]") {
     std::shared_ptr<plugin::TableReader> reader;
     Folder folder;
     const std::string file = folder.file("a.binary");
@@ -186,7 +186,7 @@ TEST_CASE("a reload of the plugin rereads the files of its folder", "[table][plu
     CHECK(registry.find_material("measured"));
 }
 
-TEST_CASE("a reader that requests too much is stopped, and the host says why", "[table][plugin]") {
+TEST_CASE("a reader that requests too much is stopped with a reason", "[table][plugin]") {
     test::PluginFolder folder;
     folder.add("p", test::manifest(), "table_greedy");
     plugin::Registry registry(folder.log);
@@ -199,7 +199,7 @@ TEST_CASE("a reader that requests too much is stopped, and the host says why", "
     CHECK_THAT(table.error().message, ContainsSubstring("a.dat: it would be a table of more than 1024 MiB"));
 }
 
-TEST_CASE("a plugin without native code has no tables, and says so", "[table][plugin]") {
+TEST_CASE("a plugin without native code may not have tables", "[table][plugin]") {
     test::PluginFolder folder;
     const fs::path where = folder.path / "p";
     fs::create_directories(where);
@@ -209,7 +209,7 @@ TEST_CASE("a plugin without native code has no tables, and says so", "[table][pl
         R"({"id":"org.example.velvet","provides":["restage.material/1","restage.table/1"],"version":"1.0.0","licence":"MIT",)"
         R"("materials":[{"type":"velvet","glsl":"velvet.glsl",)"
         R"("params":[{"id":"filename","type":"table"}]}]})"));
-    CHECK_THAT(folder.refusal(), ContainsSubstring("\"params\"[0]: a table is read by native code"));
+    CHECK_THAT(folder.refusal(), ContainsSubstring("\"params\"[0]: a table parameter needs native code to read it"));
 }
 
 TEST_CASE("measured materials of pbrt files: read, written, read again", "[table][pbrt]") {
@@ -245,7 +245,7 @@ TEST_CASE("measured materials of pbrt files: read, written, read again", "[table
         for (const char* v : {"v4", "v3"}) {
             const std::string out = (r.folder.path / "out" / (std::string(v) + (edited ? "e" : "") + ".pbrt")).string();
             REQUIRE(session.export_to(out, version(v)));
-            if (edited) // pbrt gets what it knows: its own measured materials are of another format
+            if (edited) // pbrt gets an approximation: its own measured materials have a different format
                 CHECK_THAT(
                     read_file(out).value(),
                     ContainsSubstring("#restage MakeNamedMaterial \"measured\" \"string plugin\" [ \"measured\" ]") &&

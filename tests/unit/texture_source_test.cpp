@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures as plugins declare them: in plugin.json, found by type, refused with a sentence, listed, reloaded.
+// Textures declared by plugins in plugin.json: found by type, refused with a reason, listed, reloaded.
 #include "plugin/texture_source.hpp"
 #include "plugin/provides.hpp"
 #include "plugin_folder.hpp"
@@ -43,7 +43,7 @@ TEST_CASE("a texture without native code is read from its manifest", "[texture]"
     CHECK(!registry.find_texture("dots"));
 }
 
-TEST_CASE("what is wrong with a texture's table is said, and where", "[texture]") {
+TEST_CASE("errors in a texture's table are reported with their place", "[texture]") {
     test::PluginFolder folder;
     const auto refusal = [&](const std::string& json) { return folder.refusal_of(json, nullptr); };
     CHECK_THAT(refusal(stripes(R"({"id": "one", "type": "colour"})")),
@@ -51,9 +51,9 @@ TEST_CASE("what is wrong with a texture's table is said, and where", "[texture]"
     CHECK_THAT(refusal(stripes(color, R"("flags": ["maped"], )")), ContainsSubstring("known: image, mapped, site"));
     CHECK_THAT(refusal(stripes(color, R"("gsl": "x", )")), ContainsSubstring("did you mean \"glsl\"?"));
     CHECK_THAT(refusal(stripes(R"({"id": "uscale", "type": "float"})", R"("flags": ["mapped"], )")),
-               ContainsSubstring("\"uscale\" belongs to the host"));
+               ContainsSubstring("\"uscale\" is reserved for the host"));
     CHECK_THAT(refusal(stripes(R"({"id": "image", "type": "float"})", R"("flags": ["image"], )")),
-               ContainsSubstring("\"image\" belongs to the host"));
+               ContainsSubstring("\"image\" is reserved for the host"));
     CHECK_THAT(refusal(stripes(color, "", "org.example.stripes", "Stripes")), ContainsSubstring("proper type name"));
     CHECK_THAT(refusal(stripes(color, "", "org.example.stripes", "stripes", "texture")),
                ContainsSubstring("is reserved"));
@@ -61,7 +61,7 @@ TEST_CASE("what is wrong with a texture's table is said, and where", "[texture]"
     for (int i = 0; i < 17; ++i)
         many += std::string(i ? ", " : "") + R"({"id": "p)" + std::to_string(i) +
                 R"(", "type": "float", "flags": ["texturable"]})";
-    CHECK_THAT(refusal(stripes(many)), ContainsSubstring("17 texturable parameters; 16 are possible"));
+    CHECK_THAT(refusal(stripes(many)), ContainsSubstring("17 texturable parameters; the maximum is 16"));
     CHECK_THAT(refusal(R"({"id": "org.example.stripes", "provides": ["restage.material/1"], "version": "1.0.0",
                            "licence": "MIT", "textures": []})"),
                ContainsSubstring("does not list restage.texture/1"));
@@ -80,7 +80,7 @@ TEST_CASE("types and prefixes of textures are unique over all plugins", "[textur
     CHECK_THAT(registry.entries()[2]->reason, ContainsSubstring("the prefix \"stripes\" is already taken"));
 }
 
-TEST_CASE("a texture is reloaded when its GLSL changes, if its judge agrees", "[texture][reload]") {
+TEST_CASE("a texture is reloaded when its GLSL changes, if the judge accepts it", "[texture][reload]") {
     test::PluginFolder folder;
     const auto path = folder.add("stripes", stripes(color), nullptr);
     Registry registry(folder.log);

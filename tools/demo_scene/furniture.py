@@ -292,7 +292,7 @@ def upright_books(scene, where, names, sizes):
     """A row of standing books, spines towards -y, from left to right."""
     x = where[0]
     for name, size in zip(names, sizes):
-        # lying (x width, y height, z thickness) -> standing: spine (x = 0) to -y, height up, thickness along +x
+        # lying (x width, y height, z thickness) to standing: spine (x = 0) to -y, height up, thickness along +x
         basis = np.eye(4)
         basis[:3, 0], basis[:3, 1], basis[:3, 2] = (0, 1, 0), (0, 0, 1), (1, 0, 0)
         m = translate(x, where[1], where[2]) @ basis @ scale(*size) @ translate(0, 0.5, 0)

@@ -24,7 +24,7 @@ def smoothstep(a, b, x):
 
 
 def mix(a, b, t):
-    """Between two colours (or images), t an image or a number."""
+    """Interpolates between two colours (or images); t is an image or a number."""
     t = np.asarray(t, float)
     a, b = np.asarray(a, float), np.asarray(b, float)
     if t.ndim == 2:
@@ -48,7 +48,7 @@ def colour(hexadecimal):
 
 
 def _filtered(rows):
-    """PNG's filter 4 (Paeth) for every row: (height, width * channels) bytes with the filter byte in front."""
+    """PNG's filter 4 (Paeth) for every row: (height, width * channels) bytes, preceded by the filter byte."""
     height, width, channels = rows.shape
     x = rows.astype(np.int16)
     left = np.zeros_like(x)
@@ -67,7 +67,7 @@ def _filtered(rows):
 def write_png(path, encoded, levels=256):
     """8-bit grey (h,w) or RGB (h,w,3) from floats in 0..1, already encoded; row 0 is the top.
 
-    Fewer levels pack grainy images tighter; the grain hides the steps.
+    With fewer levels grainy images compress better; the grain hides the steps.
     """
     image = np.asarray(encoded, float)
     image = image[..., None] if image.ndim == 2 else image

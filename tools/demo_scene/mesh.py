@@ -3,16 +3,16 @@
 
 Lengths in metres, z up, right-handed; normals point out of the solid, and triangles wind counter-clockwise about them.
 The last bits of sine, power and matrix product differ from processor to processor. No choice may depend on them: all
-choices (a vertex kept, an axis, a side) go through `above` or `first_largest`.
+choices (a vertex kept, an axis, a side) use `above` or `first_largest`.
 """
 
 import numpy as np
 
-SLACK = 1e-9  # relative: a million times the rounding error here, and far below what is visible
+SLACK = 1e-9  # relative: a million times the rounding error here, and far below visibility
 
 
 def above(values, limit):
-    """values > limit; refuses a shape whose answer depends on rounding, for its author to change."""
+    """values > limit; refuses a shape for which this depends on rounding, so that its author changes it."""
     if np.any(np.abs(np.asarray(values) - limit) <= SLACK * abs(limit)):
         raise ValueError(f"a value practically equals the limit {limit}")
     return np.asarray(values) > limit
@@ -45,7 +45,7 @@ class Mesh:
         return Mesh(self.v @ linear.T + m[:3, 3], n, self.uv, f)
 
     def flipped(self):
-        """A copy whose normals point the other way."""
+        """A copy with flipped normals."""
         return Mesh(self.v, -self.n, self.uv, self.f[:, ::-1])
 
     def with_uv(self, scale=1.0, offset=(0.0, 0.0)):
@@ -97,13 +97,13 @@ def _normalised(x):
 
 
 def grid_faces(rows, columns):
-    """Two triangles a cell of a rows x columns vertex grid; +row x +column is the normal's side."""
+    """Two triangles per cell of a rows x columns vertex grid; +row x +column is the normal's side."""
     i = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)[None, :]).ravel()
     return np.concatenate([np.stack([i, i + columns, i + columns + 1], 1), np.stack([i, i + columns + 1, i + 1], 1)])
 
 
 def without_slivers(mesh):
-    """Drop triangles of no area (the poles of a lathe) and unused vertices."""
+    """Drop triangles without area (the poles of a lathe) and unused vertices."""
     a, b, c = (mesh.v[mesh.f[:, k]] for k in range(3))
     f = mesh.f[above(np.linalg.norm(np.cross(b - a, c - a), axis=1), 1e-14)]
     used, f = np.unique(f, return_inverse=True)
@@ -158,7 +158,7 @@ def smooth_curve(points, steps=6):
 
 
 def essential(points, tolerance):
-    """Which points of a polyline carry its shape (Douglas and Peucker 1973)."""
+    """The points of a polyline that define its shape (Douglas and Peucker 1973)."""
     keep = np.zeros(len(points), bool)
     keep[[0, -1]] = True
     todo = [(0, len(points) - 1)]
@@ -181,7 +181,7 @@ def lathe(profile, segments=64, uv_scale=(1.0, 1.0)):
     d = np.diff(p, axis=0)
     length = np.linalg.norm(d, axis=1)
     edge = np.stack([d[:, 1], -d[:, 0]], 1) / np.maximum(length, 1e-12)[:, None]
-    # Long flats keep their normal where they meet a fillet: weight the two edges of a vertex by their length.
+    # Long flats keep their normal next to a fillet: weight the two edges of a vertex by their length.
     n = np.zeros_like(p)
     n[:-1] += edge * length[:, None]
     n[1:] += edge * length[:, None]
@@ -345,13 +345,13 @@ def rounded_rectangle(width, height, radius, steps=3):
 
 
 def tube(path, radius, count=12, up=(0.31, 0.17, 0.93)):
-    """A round rod along a path; radius may be one number or one a point."""
+    """A round rod along a path; radius may be one number or one per point."""
     radius = np.broadcast_to(np.asarray(radius, float), len(path))
     return sweep(path, circle(1.0, count), up, radius)
 
 
 def write_ply(path, mesh):
-    """Binary little-endian PLY with normals and uvs, as pbrt-v4's plymesh reads it."""
+    """Binary little-endian PLY with normals and uvs, as read by pbrt-v4's plymesh."""
     vertices = np.concatenate([mesh.v, mesh.n, mesh.uv], 1).astype("<f4")
     faces = np.zeros(len(mesh.f), dtype=[("count", "u1"), ("index", "<i4", 3)])
     faces["count"], faces["index"] = 3, mesh.f

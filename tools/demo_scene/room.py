@@ -7,7 +7,7 @@ from .mesh import Mesh, box_between, fillet, lathe, merge, rotate, rounded_box, 
 
 WIDTH, DEPTH, HEIGHT = 4.6, 5.6, 2.75  # x 0..WIDTH, y -DEPTH..0 (the back wall is y = 0), z 0..HEIGHT
 WINDOW = (-2.62, -0.72, 0.42, 2.36)  # y0 y1 z0 z1 in the wall x = 0
-FILL = (-5.45, -1.55, 0.10, 2.55)  # y0 y1 z0 z1 of the garden door beside the camera, in the wall x = WIDTH
+FILL = (-5.45, -1.55, 0.10, 2.55)  # y0 y1 z0 z1 of the garden door next to the camera, in the wall x = WIDTH
 REVEAL = 0.26  # thickness of the window walls
 
 

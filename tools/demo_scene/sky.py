@@ -36,7 +36,7 @@ def sky_radiance(d, sun_from):
     cloud = table[(d[..., 1] * scale).astype(int) % 256, (d[..., 0] * scale).astype(int) % 256]
     cover = smoothstep(0.2, 1.8, cloud) * smoothstep(0.08, 0.4, z) * 0.55
     sky = mix(sky, np.array([1.55, 1.55, 1.52]), cover)
-    # The horizon: far hills, then a garden; both are bounce light, seen small and over-exposed.
+    # The horizon: far hills, then a garden; both give bounce light, and are small and over-exposed in the picture.
     azimuth = np.arctan2(d[..., 1], d[..., 0])
     hills = 0.060 + 0.022 * np.sin(3 * azimuth + 0.7) + 0.012 * np.sin(7 * azimuth + 2.1) + 0.006 * np.sin(19 * azimuth)
     trees = (
@@ -50,6 +50,6 @@ def sky_radiance(d, sun_from):
 
 
 def sky_image(resolution, sun_from, samples=2):
-    """Box-filtered: `samples` squared points a pixel."""
+    """Box-filtered: `samples` squared points per pixel."""
     fine = sky_radiance(square_to_sphere(resolution * samples), sun_from)
     return fine.reshape(resolution, samples, resolution, samples, 3).mean((1, 3))

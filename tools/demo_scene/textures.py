@@ -25,7 +25,7 @@ def wood(shape, seed, light, mid, dark, **options):
 
 
 def floor_planks(size, rows=14):
-    """Oak planks along the vertical axis, two boards a row; returns colour and height (1 = the plank's face)."""
+    """Oak planks along the vertical axis, two boards per row; returns colour and height (1 = the plank's face)."""
     rng = np.random.default_rng(5)
     base = wood_value((size, size), 21, rings=26.0, warp=1.3)
     edges = np.rint(np.arange(rows + 1) / rows * size).astype(int)

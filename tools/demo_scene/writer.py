@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes a scene as pbrt-v4 text: named textures and materials, objects (ObjectBegin) and their named placings."""
+"""Writes a scene as pbrt-v4 text: named textures and materials, objects (ObjectBegin) and their named placements."""
 
 import shutil
 
@@ -64,7 +64,7 @@ class Scene:
         self.objects.append("\n".join(lines + ["ObjectEnd"]))
 
     def place(self, name, matrix=None):
-        """One more of an object; the second chair is called "Chair 2", as the importer would name it."""
+        """Another instance of an object; the second chair is called "Chair 2", as in the importer."""
         self.count[name] = self.count.get(name, 0) + 1
         label = name if self.count[name] == 1 else f"{name} {self.count[name]}"
         lines = [f"# name: {label}", "AttributeBegin"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assets: things to bring into the scene: drag them into the picture, or double click.
+// Assets: things to add to the scene: drag them into the picture, or double-click.
 #include "panels.hpp"
 
 #include "base/file.hpp"
@@ -117,8 +117,8 @@ void cell(SelectContext& e, const Asset& asset, float side) {
         ImGui::EndDragDropSource();
     }
     static constexpr const char* uses[] = {"Double click: open it",
-                                           "Double click: becomes the sky. Or drag it into the picture",
-                                           "Double click: put it on the selection. Or drag it onto an object",
+                                           "Double click: use it as the sky. Or drag it into the picture",
+                                           "Double click: apply it to the selection. Or drag it onto an object",
                                            "Double click: add it to the scene. Or drag it to its place"};
     tip(fmt::format("{}\n{}", asset.path, uses[int(asset.kind)]).c_str());
     ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -152,7 +152,7 @@ void cell(SelectContext& e, const Asset& asset, float side) {
 
 void add_folder(PanelUi& e, const fs::path& folder) {
     if (own_config(e).empty())
-        e.notices.add(LogLevel::error, "There is no settings folder to remember it in");
+        e.notices.add(LogLevel::error, "There is no configuration folder to store it in");
     else if (auto added = add_asset_folder(own_config(e), folder); !added)
         e.notices.add(LogLevel::error, added.error().message);
     else
@@ -201,14 +201,15 @@ void draw_assets(SelectContext& e) {
     e.mark("assets.search");
     if (flow_button("Reload")) {
         state.loaded = false;
-        for (auto& [path, thumbnail] : state.thumbnails) // existing ones stay: textures live as long as the window
+        for (auto& [path, thumbnail] :
+             state.thumbnails) // existing ones stay: textures are never freed before the window
             if (thumbnail.failed) thumbnail = {};
     }
     tip("Read assets.json and the folders again");
     e.mark("assets.reload");
     if (flow_button("Add folder..."))
         browse(e, {.title = "Folder with scenes, images or meshes", .folder = true, .done = add_folder});
-    tip("What is in it, three levels deep, is listed here from now on");
+    tip("Lists its contents here, three levels deep");
     e.mark("assets.add");
     if (state.entries.empty()) {
         empty_note(fmt::format("No assets yet. Add a folder, or list files in {}.",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Convergence: the estimated relative error of the live picture against time or samples, as it falls; the previous
-// picture for comparison, and the error at which rendering stops.
+// Convergence: the estimated relative error of the live picture over time or samples; the previous picture for
+// comparison, and the error at which rendering stops.
 #include "panels.hpp"
 
 #include "panel_context.hpp"
@@ -21,7 +21,7 @@ void follow_convergence(PanelUi& e, const PictureView& picture) {
     const auto frame = picture.live().frame();
     if (!frame || frame->divider != 1 || frame->relative_error >= 1e29) return;
     if (frame->request != state.current.request) {
-        // Pictures abandoned after a moment, while something moved, are not worth comparing.
+        // Pictures soon abandoned because something moved are not useful for comparison.
         if (state.current.error.size() > 2) state.previous = std::move(state.current);
         state.current = {.request = frame->request};
     }
@@ -46,13 +46,13 @@ void draw_convergence(PanelUi& e, const PictureView& picture) {
     const Curve& now = state.current;
     if (!now.error.empty()) {
         ImGui::SameLine();
-        ImGui::TextDisabled("%.2f %% after %.0f samples a pixel, %.1f s; %.2f million samples a second",
+        ImGui::TextDisabled("%.2f %% after %.0f samples per pixel, %.1f s; %.2f million samples per second",
                             now.error.back(), now.samples.back(), now.seconds.back(),
                             picture.live().status().samples_per_second * 1e-6);
         tip("The estimated relative error of the picture before denoising");
     }
     if (now.error.empty() && state.previous.error.empty()) {
-        empty_note("The error is estimated from two samples a pixel on.");
+        empty_note("The error is estimated once there are two samples per pixel.");
         return;
     }
     const float scale = ImGui::GetStyle().FontScaleMain;
@@ -60,9 +60,9 @@ void draw_convergence(PanelUi& e, const PictureView& picture) {
     style.PlotPadding = {8 * scale, 6 * scale};
     style.LabelPadding = {4 * scale, 3 * scale};
     if (!ImPlot::BeginPlot("##error", {-1, -1}, ImPlotFlags_NoMouseText)) return;
-    ImPlot::SetupAxes(state.against_samples ? "Samples a pixel" : "Time (s)", "Error (%)", ImPlotAxisFlags_AutoFit,
+    ImPlot::SetupAxes(state.against_samples ? "Samples per pixel" : "Time (s)", "Error (%)", ImPlotAxisFlags_AutoFit,
                       ImPlotAxisFlags_AutoFit);
-    // Logarithmic over more than a decade; in less there would be no ticks to read.
+    // Logarithmic over more than a decade; below that there would be no ticks.
     const auto scale_of = [&](auto values) {
         double least = 1e30, most = 0;
         for (const Curve* curve : {&std::as_const(state.previous), &now})

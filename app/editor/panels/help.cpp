@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Help: how to get around in the picture, and every shortcut from the table of actions, for either preset of keys.
+// Help: navigation in the picture, and every shortcut from the table of actions, for the current key preset.
 #include "panels.hpp"
 
 #include "actions.hpp"
@@ -21,19 +21,18 @@ struct Gesture {
     const char* blender; // null = the same
 };
 constexpr Gesture mouse[] = {
-    {"Click", "Select; again: what is behind. Shift adds, Ctrl toggles", nullptr},
+    {"Click", "Select; again: the object behind. Shift adds, Ctrl toggles", nullptr},
     {"Drag", "Select all in a box", nullptr},
-    {"Double click", "Enter a group; on anything else: orbit about that point", nullptr},
-    {"Alt + drag", "Orbit, but for handles", "Middle drag, or Alt + drag"},
+    {"Double click", "Enter a group; elsewhere: orbit about that point", nullptr},
+    {"Alt + drag", "Orbit, except on handles", "Middle drag, or Alt + drag"},
     {"Middle drag", "Pan", "Shift + middle drag"},
-    {"Wheel", "Zoom to what is under the mouse", nullptr},
+    {"Wheel", "Zoom to the point under the mouse", nullptr},
     {"Right drag", "Look around; with W A S D Q E: fly. Wheel: speed, Shift: faster", nullptr},
-    {"Drag what is selected",
-     "It slides over the floor, at its height. Shift: a copy, Ctrl: in steps; Alt, once it slides: up and down",
+    {"Drag the selection", "Slides it horizontally. Shift: a copy, Ctrl: in steps; Alt during the drag: up and down",
      nullptr},
-    {"Drag a box", "To the right: select what is wholly in it. To the left: all that it touches", nullptr},
-    {"Drag a handle", "Move, turn or stretch. Shift: a copy, Ctrl: in steps; of a move, Alt: up and down", nullptr},
-    {"Esc, right click in a drag", "All is as it was before the drag", nullptr},
+    {"Drag a box", "To the right: select objects entirely inside it. To the left: all that it touches", nullptr},
+    {"Drag a handle", "Move, rotate or scale. Shift: a copy, Ctrl: in steps; moving with Alt: up and down", nullptr},
+    {"Esc, right click in a drag", "Cancels the drag", nullptr},
     {"Right click on a value", "Back to its default", nullptr},
     {"Ctrl + click on a value", "Type a number", nullptr},
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// History: every change in order; a click goes there. Says which state is the saved one.
+// History: every change in order; a click goes to that state. Marks the saved state.
 #include "panels.hpp"
 
 #include "document/session.hpp"
@@ -31,7 +31,7 @@ void draw_history(EditContext& e) {
         if (undone) ImGui::PopStyleColor();
         e.mark(fmt::format("history.{}", position));
         if (current && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
-        if (saved == position && (position > 0 || history.dropped() > 0)) { // row 0 else says where it is from
+        if (saved == position && (position > 0 || history.dropped() > 0)) { // row 0 otherwise names the origin
             ImGui::SameLine();
             ImGui::TextColored(colors::good, "saved");
             e.mark("history.saved");
@@ -47,7 +47,7 @@ void draw_history(EditContext& e) {
     int& typed = e.panel_state->history_mib;
     if (typed == 0) typed = e.preferences.history_mib;
     ImGui::InputInt("MiB##history_mib", &typed, 0, 0);
-    if (ImGui::IsItemDeactivatedAfterEdit()) { // by Enter, Tab or a click elsewhere; not by each digit
+    if (ImGui::IsItemDeactivatedAfterEdit()) { // on Enter, Tab or a click elsewhere; not after each digit
         e.preferences.history_mib = std::clamp(typed, 16, 65536);
         e.change([bytes = std::size_t(e.preferences.history_mib) << 20](document::Session& s) {
             s.set_history_budget(bytes);
@@ -59,9 +59,7 @@ void draw_history(EditContext& e) {
     if (history.dropped() > 0)
         ImGui::TextDisabled(
             "%s", fmt::format("{} older steps were dropped: they can no longer be undone", history.dropped()).c_str());
-    row(0, history.dropped() > 0        ? "The oldest state that is kept"
-           : e.session().path().empty() ? "New scene"
-                                        : "Opened");
+    row(0, history.dropped() > 0 ? "The oldest remaining state" : e.session().path().empty() ? "New scene" : "Opened");
     ImGuiListClipper clipper;
     clipper.Begin(int(history.size()));
     while (clipper.Step())

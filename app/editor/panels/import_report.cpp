@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Import report: what became of the things in the file, which objects an entry is about, and missing files.
+// Import report: how things in the file were imported, the objects that an entry concerns, and missing files.
 #include "panels.hpp"
 
 #include "document/session.hpp"
@@ -28,7 +28,7 @@ namespace {
 using ImageId = scene::Id<scene::Image>;
 using MeshId = scene::Id<scene::Mesh>;
 
-// Selects what an entry is about: 'material "oak"' = the objects that have it.
+// Selects the objects that an entry concerns: 'material "oak"' = the objects that have it.
 bool select_named(SelectContext& e, const std::string& what) {
     const std::size_t open = what.find('"'), close = what.rfind('"');
     if (open == std::string::npos || close <= open) return false;
@@ -52,7 +52,7 @@ bool select_named(SelectContext& e, const std::string& what) {
     return !found.empty();
 }
 
-// Reads the images from these places and, when all were read, makes them the scene's: one step of the history.
+// Reads the images from these files and, once all are read, puts them into the scene: one undo step.
 void relink(EditContext& e, std::vector<std::pair<ImageId, std::string>> places) {
     struct Gathering {
         std::size_t left;
@@ -90,7 +90,7 @@ void relink(EditContext& e, std::vector<std::pair<ImageId, std::string>> places)
     }
 }
 
-// Reads the meshes from these files, each the first of its file, and makes them the scene's: one step of the history.
+// Reads the meshes from these files, the first of each file, and puts them into the scene: one undo step.
 void relink(DocumentContext& e, std::vector<std::pair<MeshId, std::string>> places) {
     if (places.empty()) return;
     const std::string title = places.size() == 1 ? "Reading " + places[0].second : "Reading missing meshes";
@@ -110,7 +110,7 @@ void relink(DocumentContext& e, std::vector<std::pair<MeshId, std::string>> plac
                 if (data)
                     read.emplace_back(id, path, data);
                 else
-                    problems.push_back(imported ? path + ": holds no mesh" : imported.error().message);
+                    problems.push_back(imported ? path + ": contains no mesh" : imported.error().message);
             }
             return [read, problems](EditContext& editor) {
                 for (const std::string& problem : problems)
@@ -130,7 +130,7 @@ void relink(DocumentContext& e, std::vector<std::pair<MeshId, std::string>> plac
         });
 }
 
-// The files of these names anywhere in the folder.
+// Files with these names anywhere in the folder.
 void relink_from_folder(EditContext& e, const std::vector<ImageId>& missing, const std::vector<MeshId>& meshes,
                         const std::string& folder) {
     std::map<std::string, std::string> files; // name -> path
@@ -162,7 +162,7 @@ void missing_files(EditContext& e) {
     e.scene().images.each([&](ImageId id, const scene::Image& image) {
         if (!image.data && !image.path.empty()) missing.push_back(id);
     });
-    std::vector<MeshId> meshes; // that can be relinked; Include and so on by opening the scene again
+    std::vector<MeshId> meshes; // that can be relinked; Include and others require reopening the scene
     std::size_t lines = 0;
     e.scene().meshes.each([&](MeshId id, const scene::Mesh& mesh) {
         if (!scene::is_missing(mesh)) return;
@@ -192,7 +192,7 @@ void missing_files(EditContext& e) {
                    .done = [missing, meshes](SelectContext& editor, const std::filesystem::path& folder) {
                        relink_from_folder(editor, missing, meshes, folder.string());
                    }});
-    tip("Finds files of the same names in that folder and all within it");
+    tip("Finds files with the same names in that folder and its subfolders");
     e.mark("report.find_all");
     for (const ImageId id : missing) {
         ImGui::PushID(int(id.value));
@@ -241,7 +241,7 @@ void draw_import_report(SelectContext& e) {
     ReportState& state = e.panel_state->report;
     if (why_not_import_again(e).empty()) {
         if (ImGui::Button("Import again...")) e.run("file.import_again");
-        tip("Read the file again with other options");
+        tip("Reread the file with other options");
         e.mark("report.import_again");
         ImGui::SameLine();
         const std::string options = import_options_text(e);
@@ -265,10 +265,10 @@ void draw_import_report(SelectContext& e) {
         e.mark(mark);
     };
     filter("dropped", io::Fate::dropped, state.dropped, colors::error,
-           "Not in the scene; kept in the file when it is written where that is possible", "report.dropped");
+           "Not in the scene; written back to the file if possible", "report.dropped");
     filter("approximated", io::Fate::approximated, state.approximated, colors::warning,
-           "Rendered in a simpler way than the file says", "report.approximated");
-    filter("kept", io::Fate::kept, state.kept, colors::good, "As the file says", "report.kept");
+           "Rendered more simply than specified in the file", "report.approximated");
+    filter("kept", io::Fate::kept, state.kept, colors::good, "As specified in the file", "report.kept");
     const float width = 110 * ImGui::GetStyle().FontScaleMain;
     flow(width);
     ImGui::SetNextItemWidth(width);
@@ -288,7 +288,7 @@ void draw_import_report(SelectContext& e) {
             text += io::to_string(*entry) + "\n";
         ImGui::SetClipboardText(text.c_str());
     }
-    tip("Copy the lines that are shown to the clipboard");
+    tip("Copy the shown lines to the clipboard");
     e.mark("report.copy");
     if (shown.empty()) {
         empty_note("No line fits the filter.");
@@ -298,10 +298,10 @@ void draw_import_report(SelectContext& e) {
                            ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp |
                                ImGuiTableFlags_BordersInnerV,
                            {0, std::max(ImGui::GetContentRegionAvail().y, 6 * ImGui::GetTextLineHeightWithSpacing())}))
-        return; // in a low panel what is above scrolls away
+        return; // in a low panel the part above scrolls away
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("What", 0, 3);
-    ImGui::TableSetupColumn("What became of it", 0, 6);
+    ImGui::TableSetupColumn("How it was imported", 0, 6);
     ImGui::TableSetupColumn("Where", 0, 2);
     ImGui::TableHeadersRow();
     ImGuiListClipper clipper;
@@ -317,10 +317,10 @@ void draw_import_report(SelectContext& e) {
                                                                                         : colors::good);
             if (ImGui::Selectable(entry.what.c_str(), false, ImGuiSelectableFlags_SpanAllColumns) &&
                 !select_named(e, entry.what))
-                e.notices.add(LogLevel::info, entry.what + " is neither an object nor on one");
+                e.notices.add(LogLevel::info, entry.what + " is neither an object nor used by one");
             ImGui::PopStyleColor();
-            tip(fmt::format("{}: {}\n{}\nClick to select what it is about", entry.what, io::to_string(entry.fate),
-                            entry.note)
+            tip(fmt::format("{}: {}\n{}\nClick to select the objects it concerns", entry.what,
+                            io::to_string(entry.fate), entry.note)
                     .c_str());
             e.mark(fmt::format("report.{}", i));
             ImGui::TableNextColumn();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector: what is selected. Its name and place, its material (type and every parameter of the plugin's table), its
+// Inspector: the selection: its name and place, its material (type and every parameter of the plugin's table), its
 // light.
 #include "inspector.hpp"
 
@@ -16,7 +16,7 @@ namespace restage::editor {
 
 namespace {
 
-// Flags of the selected objects: a click gives all of them the active one's new value.
+// Flags of the selected objects: a click sets all of them to the active object's new value.
 void object_section(SelectContext& e, InstanceId id) {
     if (!section_header("Object")) {
         e.mark("inspector.object");
@@ -25,11 +25,11 @@ void object_section(SelectContext& e, InstanceId id) {
     e.mark("inspector.object");
     const scene::Instance& instance = e.scene().instances[id];
     const auto ids = e.selection.instances();
-    form_row("Hidden", "Neither seen nor casting light or shadow");
+    form_row("Hidden", "Invisible, without light or shadow");
     if (bool hidden = instance.hidden; ImGui::Checkbox("##hidden", &hidden))
         e.edit([ids, hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
     e.mark("inspector.hidden");
-    form_row("Locked", "Clicks in the picture go through it");
+    form_row("Locked", "Clicks in the picture ignore it");
     if (bool locked = e.locked.contains(id.value); ImGui::Checkbox("##locked", &locked))
         e.later([&e, ids, locked] {
             for (const InstanceId one : ids)
@@ -39,21 +39,20 @@ void object_section(SelectContext& e, InstanceId id) {
                     e.locked.erase(one.value);
         });
     e.mark("inspector.locked");
-    form_row(
-        "Swap sides",
-        "The other side is the front, where it shines or has a medium inside (reversed orientation, flipped normals)");
+    form_row("Swap sides",
+             "Swaps front and back, for emission and media inside (reversed orientation, flipped normals)");
     if (bool flipped = instance.reverse_orientation; ImGui::Checkbox("##flip", &flipped))
         e.edit([id, flipped](const scene::Scene& s) {
             return scene::modify(s, id, "Swap sides", [&](scene::Instance& i) { i.reverse_orientation = flipped; });
         });
     e.mark("inspector.flip");
-    form_row("Opacity", "Share of the surface that exists: 1 = all of it (alpha)");
+    form_row("Opacity", "Opacity: the fraction of the surface that exists (alpha)");
     if (const scene::Texture* cutout = e.scene().textures.find(instance.alpha_texture)) {
         if (ImGui::Button(("Cut out by " + cutout->name + "###cutout").c_str(), {ImGui::CalcItemWidth(), 0}))
             e.edit([id](const scene::Scene& s) {
                 return scene::modify(s, id, "Remove cut-out", [&](scene::Instance& i) { i.alpha_texture = {}; });
             });
-        tip("A texture cuts holes into it. Click to remove that");
+        tip("A texture cuts holes into it. Click to remove it");
     } else if (float alpha = instance.alpha;
                ImGui::SliderFloat("##alpha", &alpha, 0, 1, "%.3f", ImGuiSliderFlags_AlwaysClamp)) {
         e.edit(
@@ -64,7 +63,7 @@ void object_section(SelectContext& e, InstanceId id) {
     }
     e.mark("inspector.alpha");
     if (const scene::Mesh* mesh = e.scene().meshes.find(instance.mesh); mesh && mesh->data) {
-        form_row("Shape", mesh->source_file.empty() ? "The mesh it is made of" : mesh->source_file.c_str());
+        form_row("Shape", mesh->source_file.empty() ? "Its mesh" : mesh->source_file.c_str());
         ImGui::TextDisabled("%zu triangles", mesh->data->triangles.size());
     }
 }
@@ -80,7 +79,7 @@ void draw_inspector(SelectContext& e) {
     const scene::Instance* instance = e.scene().instances.find(id);
     if (!instance) {
         empty_note(e.scene().instances.live()
-                       ? "Click an object in the picture or in the outliner to see and change what it is."
+                       ? "Click an object in the picture or in the outliner to see and change its properties."
                        : "Open a scene first.");
         return;
     }

@@ -45,9 +45,9 @@ void ask_emission(EditContext& e, InstanceId id, std::optional<scene::Emission> 
     e.edit([id, emission](const scene::Scene& s) { return scene::set_emission(s, id, emission); }, gesture);
 }
 
-// Directions of lights that shine along +z: an angle above the horizon and one around it, about the scene's up.
+// Directions of lights that emit along +z: elevation and azimuth about the scene's up.
 struct Angles {
-    double elevation = 90, azimuth = 0; // of where the light comes from [deg]
+    double elevation = 90, azimuth = 0; // of the direction towards the light [deg]
 };
 
 glm::dmat3 horizon(const glm::dvec3& up) { // columns: two horizontal axes and up
@@ -110,7 +110,7 @@ void emission_section(EditContext& e, InstanceId id) {
     if (!shown) return;
     ImGui::PushID("light");
     const scene::Instance& instance = e.scene().instances[id];
-    form_row("Emits light", "Makes the object a lamp: its whole surface shines");
+    form_row("Emits light", "Makes the object a lamp: its whole surface emits light");
     if (bool on = instance.emission.has_value(); ImGui::Checkbox("##emits", &on))
         ask_emission(e, id,
                      on ? std::optional(scene::Emission{.radiance = glm::vec3(scene::blackbody_color(4000)) * 10.f})
@@ -118,7 +118,7 @@ void emission_section(EditContext& e, InstanceId id) {
                      "");
     e.mark("light.emits");
     if (!instance.emission && io::MaterialEmissions(e.registry(), e.scene()).shines(instance))
-        ImGui::TextDisabled("It shines by its material, see above.");
+        ImGui::TextDisabled("Its material emits light, see above.");
     if (instance.emission) {
         scene::Emission emission = *instance.emission;
         bool changed = light_value_rows(e, emission.radiance, "Brightness", "W/(m²sr)", "light");
@@ -126,7 +126,7 @@ void emission_section(EditContext& e, InstanceId id) {
         const double sides = pi * area_of(e, id) * (emission.two_sided ? 2 : 1);
         if (auto power = float(luminance(emission.radiance) * sides); sides > 0) {
             form_row("Power",
-                     "Of the whole surface, weighted as by the eye: a larger lamp of the same brightness has more");
+                     "Luminous power of the whole surface: at the same brightness it grows with the lamp's size");
             const float before = power;
             if (ImGui::DragFloat("##power", &power, drag_speed(power, 1e-3f), 0, 1e12f, "%.4g W",
                                  ImGuiSliderFlags_AlwaysClamp)) {
@@ -136,7 +136,7 @@ void emission_section(EditContext& e, InstanceId id) {
             }
             e.mark("light.power");
         }
-        form_row("Two-sided", "Shines from the back of its surface, too");
+        form_row("Two-sided", "The back of its surface emits light, too");
         changed |= ImGui::Checkbox("##two-sided", &emission.two_sided);
         e.mark("light.two_sided");
         if (changed) ask_emission(e, id, emission, "inspector.emission");
@@ -154,7 +154,7 @@ void light_section(EditContext& e, scene::Id<scene::Light> id) {
     tip("The light's name");
     e.mark("light.name");
     bool changed = false;
-    form_row("Type", "What shines where");
+    form_row("Type", "How it emits light");
     if (ImGui::BeginCombo("##kind", scene::light_row(light.kind).label)) {
         for (const scene::LightKindRow& row : scene::light_kinds) {
             if (ImGui::Selectable(row.label, row.kind == light.kind)) {
@@ -180,22 +180,22 @@ void light_section(EditContext& e, scene::Id<scene::Light> id) {
     }
     if (scene::light_row(light.kind).aimed) {
         Angles angles = angles_of(light.light_to_world, e.up());
-        form_row("Height", "How high above the horizon the light comes from");
+        form_row("Height", "Elevation of the light above the horizon");
         const double lowest = -90, highest = 90;
         bool turn = ImGui::DragScalar("##elevation", ImGuiDataType_Double, &angles.elevation, 0.25f, &lowest, &highest,
                                       "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.elevation");
-        form_row("Around", "From which side it comes");
+        form_row("Around", "Azimuth of the light");
         turn |= ImGui::DragScalar("##azimuth", ImGuiDataType_Double, &angles.azimuth, 0.5f, nullptr, nullptr, "%.1f°");
         e.mark("light.azimuth");
         if (turn) light.light_to_world = turned(light.light_to_world, angles, e.up());
         changed |= turn;
     }
     if (scene::light_row(light.kind).cone) {
-        form_row("Cone", "From the axis to the edge: half of the opening");
+        form_row("Cone", "From the axis to the edge: half of the opening angle");
         changed |= ImGui::SliderFloat("##cone", &light.cone_angle, 0.1f, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         e.mark("light.cone");
-        form_row("Soft edge", "Width of the edge where it fades");
+        form_row("Soft edge", "Width of the fading edge");
         changed |=
             ImGui::SliderFloat("##edge", &light.cone_delta, 0, light.cone_angle, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
         light.cone_delta = std::min(light.cone_delta, light.cone_angle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector, material: which one, which objects share it, its type, and a row for every line of the plugin's table.
+// Inspector, material: its name, the objects that share it, its type, and a row for every line of the plugin's table.
 #include "copy_paste.hpp"
 #include "drop.hpp"
 #include "inspector.hpp"
@@ -31,7 +31,7 @@ scene::ParamTable table_of(const std::optional<plugin::MaterialEntry>& plugin) {
     return plugin ? scene::ParamTable(plugin->table->params) : scene::ParamTable();
 }
 
-// Its ball; its main colour until that is rendered.
+// Its ball; until that is rendered, its main colour.
 void swatch(DocumentContext& e, MaterialId id, ImVec2 at, float size) {
     const Texture* ball = e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, e.scene(), id);
     ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -152,11 +152,11 @@ void sharing(SelectContext& e, MaterialId id) {
             auto made = scene::make_unique(s, ids, id);
             return made ? Result<scene::Edit>(std::move(made->edit)) : tl::unexpected<Error>(made.error());
         });
-    tip("Give the selection a copy of its own; the others stay as they are");
+    tip("Give the selection its own copy; the others stay unchanged");
     e.mark("material.unique");
 }
 
-// Reads the file, then makes it that colour's texture.
+// Reads the file, then sets it as that colour's texture.
 void give_image(EditContext& e, const MaterialScope& scope, const std::string& param, const std::string& path) {
     e.panel_state->loads.start(
         {.path = path,
@@ -178,7 +178,7 @@ void give_image(EditContext& e, const MaterialScope& scope, const std::string& p
          }});
 }
 
-// `line`: of the material's table, or shown as a slot that only a texture fills.
+// `line`: of the material's table, or shown as a slot for a texture only.
 void param_row(EditContext& e, MaterialId id, const scene::Material& material, const model::Param& line) {
     const auto plugin = e.registry().find_material(material.type);
     const model::Param* declared = plugin ? plugin->table->find(line.id) : nullptr;
@@ -266,11 +266,12 @@ void material_section(SelectContext& e, MaterialId id) {
     e.mark("material.type");
     if (!plugin)
         warning_note(
-            fmt::format("No plugin provides \"{}\". It shades as a placeholder; its values are kept and written back.",
-                        material->type)
+            fmt::format(
+                "No plugin provides \"{}\". It is shown as a placeholder; its values are kept and written back.",
+                material->type)
                 .c_str());
 
-    std::set<std::string> shown; // by the plugin itself
+    std::set<std::string> shown; // drawn by the plugin
     if (const auto* inspector = plugin ? e.registry().find_inspector(material->type) : nullptr)
         shown = draw_plugin_inspector(
             *inspector, {.editor = e,

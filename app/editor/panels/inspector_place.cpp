@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inspector, place: where an object is, how it is turned and how large, about the middle of its box, as the handles in
-// the picture do. Shear is kept and not shown. Of several objects: changes relative to where they are.
+// Inspector, place: an object's position, rotation and size, about the centre of its box, as with the handles in the
+// picture. Shear is kept and not shown. For several objects: changes relative to their current places.
 #include "inspector.hpp"
 #include "scene/edits.hpp"
 #include "state.hpp"
@@ -82,11 +82,11 @@ void ask_transform(EditContext& e, InstanceId id, const glm::dmat4& m, const cha
         gesture);
 }
 
-void uniform_button(SelectContext& e) { // beside the fields of a scale
+void uniform_button(SelectContext& e) { // next to the scale fields
     InspectorState& state = e.panel_state->inspector;
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (icon_button("##uniform", state.uniform_scale ? Icon::lock : Icon::lock_open, state.uniform_scale,
-                    state.uniform_scale ? "All three change together. Click to change one alone"
+                    state.uniform_scale ? "All three change together. Click to change them separately"
                                         : "Click to change all three together"))
         state.uniform_scale = !state.uniform_scale;
     e.mark("inspector.uniform");
@@ -101,12 +101,12 @@ void one_object(SelectContext& e, InstanceId id) {
     const scene::Bounds bounds = scene::world_bounds(s, id);
     const double size = bounds.empty() ? 1 : std::max(bounds.radius(), 1e-6);
 
-    form_row("Position", "x, y, z of the object's middle, in scene units");
+    form_row("Position", "x, y, z of the object's centre, in scene units");
     if (three("##position", p.pivot, size * 0.005, "%.3f"))
         ask_transform(e, id, placed(s, instance, linear, p.pivot), "Move", "inspector.position");
     e.mark("inspector.position");
 
-    // The user's angles are shown as long as they give the current rotation: they are not unique.
+    // The user's angles are shown as long as they represent the current rotation, as angles are not unique.
     if (state.euler_of == id && state.euler) {
         const glm::dmat3 same = rotation_from(*state.euler);
         double off = 0;
@@ -114,7 +114,7 @@ void one_object(SelectContext& e, InstanceId id) {
             off = std::max(off, glm::length(same[c] - p.rotation[c]));
         if (off < 1e-6) p.euler = *state.euler;
     }
-    form_row("Rotation", "Turned about x, then y, then z");
+    form_row("Rotation", "Rotation about x, then y, then z");
     glm::dvec3 euler = p.euler + 0.0; // no negative zero
     if (three("##rotation", euler, 0.5, "%.1f°")) {
         state.euler = euler;
@@ -128,7 +128,7 @@ void one_object(SelectContext& e, InstanceId id) {
     glm::dvec3 scale = p.scale;
     if (three("##scale", scale, 0.005, "%.3f")) {
         glm::dvec3 ratio = scale / p.scale;
-        if (state.uniform_scale) // the changed one leads
+        if (state.uniform_scale) // the changed one determines the others
             for (int i = 0; i < 3; ++i)
                 if (scale[i] != p.scale[i]) ratio = glm::dvec3(ratio[i]);
         if (glm::all(glm::greaterThan(glm::abs(ratio), glm::dvec3(1e-6)))) {
@@ -142,7 +142,7 @@ void one_object(SelectContext& e, InstanceId id) {
     uniform_button(e);
 
     if (!bounds.empty()) {
-        form_row("Size", "Of the box around it, along the world's axes, in scene units");
+        form_row("Size", "Of its bounding box, along the world's axes, in scene units");
         ImGui::TextDisabled("%.3g × %.3g × %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
     }
     if (flow_button("Reset rotation", true)) {
@@ -161,7 +161,7 @@ void one_object(SelectContext& e, InstanceId id) {
     ImGui::BeginDisabled(!opened || opened->object_to_world == instance.object_to_world);
     if (flow_button("As opened") && opened) ask_transform(e, id, opened->object_to_world, "Put back", "");
     ImGui::EndDisabled();
-    tip("Back to where it was when the scene was opened");
+    tip("Back to its place when the scene was opened");
     e.mark("inspector.as_opened");
 }
 
@@ -186,9 +186,9 @@ void several_objects(SelectContext& e) {
     };
     const double before_scale[3] = {r.scale.x, r.scale.y, r.scale.z};
     field("Move by", "##move", "x, y, z in scene units", r.move, size * 0.005, "%.3f", "inspector.move_by");
-    field("Turn by", "##turn", "About their common middle: about x, then y, then z", r.turn, 0.5, "%.1f°",
+    field("Turn by", "##turn", "About their common centre: about x, then y, then z", r.turn, 0.5, "%.1f°",
           "inspector.turn_by");
-    field("Scale by", "##scale", "From their common middle", r.scale, 0.005, "%.3f", "inspector.scale_by");
+    field("Scale by", "##scale", "From their common centre", r.scale, 0.005, "%.3f", "inspector.scale_by");
     uniform_button(e);
     if (e.panel_state->inspector.uniform_scale)
         for (int i = 0; i < 3; ++i)
@@ -213,7 +213,7 @@ void several_objects(SelectContext& e) {
     }
     if (!active && !changed) r = {}; // the fields start again at "no change"
     if (!bounds.empty()) {
-        form_row("Size", "Of the box around all of them, in scene units");
+        form_row("Size", "Of their common bounding box, in scene units");
         ImGui::TextDisabled("%.3g × %.3g × %.3g", bounds.size().x, bounds.size().y, bounds.size().z);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Log: what happened.
+// Log: messages of the program.
 #include "panels.hpp"
 
 #include "state.hpp"
@@ -20,10 +20,10 @@ void draw_log(PanelUi& e) {
         tip(tooltip);
         e.mark(mark);
     };
-    filter("Notes", state.info, "What was done", "log.info", true);
-    filter("Warnings", state.warnings, "What was done differently than requested", "log.warnings");
-    filter("Errors", state.errors, "What could not be done", "log.errors");
-    filter("Details", state.details, "The program's own notes: for bug reports", "log.details");
+    filter("Notes", state.info, "Completed actions", "log.info", true);
+    filter("Warnings", state.warnings, "Actions completed differently than requested", "log.warnings");
+    filter("Errors", state.errors, "Failed actions", "log.errors");
+    filter("Details", state.details, "Internal details, for bug reports", "log.details");
     const float width = 110 * ImGui::GetStyle().FontScaleMain;
     flow(width);
     ImGui::SetNextItemWidth(width);
@@ -46,15 +46,14 @@ void draw_log(PanelUi& e) {
             text += fmt::format("{:8.1f} s  {}\n", line->time, line->text);
         ImGui::SetClipboardText(text.c_str());
     }
-    tip("Copy the lines that are shown to the clipboard");
+    tip("Copy the shown lines to the clipboard");
     e.mark("log.copy");
     if (flow_button("Clear")) state.cleared = total;
-    tip("Empty this list; nothing else changes");
+    tip("Clear this list");
     e.mark("log.clear");
     ImGui::Separator();
     if (shown.empty())
-        empty_note(state.cleared == total || lines.empty() ? "Nothing has happened yet."
-                                                           : "Nothing to show yet at these levels.");
+        empty_note(state.cleared == total || lines.empty() ? "No messages yet." : "No messages at these levels yet.");
     if (ImGui::BeginChild("lines")) {
         for (const LogLine* line : shown) {
             ImGui::TextDisabled("%7.1f s", line->time);

@@ -42,7 +42,7 @@ void rename_field(EditContext& e, OutlinerState& state, scene::Id<T> id) {
     state.renaming = {};
 }
 
-// True while this row's name is typed.
+// True while this row's name is edited.
 bool renaming(const OutlinerState& state, const Row& row) {
     return state.renaming.id == row.id && state.renaming.kind == row.kind;
 }
@@ -51,8 +51,8 @@ void ask_hidden(EditContext& e, std::vector<InstanceId> ids, bool hidden) {
     e.edit([ids = std::move(ids), hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
 }
 
-// The row itself, with its name as far as there is room before `icons` at its right end. Names are not Dear ImGui
-// labels: "##" in one is shown, and two rows may have the same name. True when it is clicked.
+// The row itself, with as much of its name as fits before `icons` at its right end. Names are not Dear ImGui
+// labels: "##" is shown, and two rows may have the same name. True if clicked.
 bool row_label(const std::string& name, bool selected, int icons, bool dim = false, const std::string& tooltip = {}) {
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const bool pressed = ImGui::Selectable(
@@ -82,14 +82,14 @@ RightIcons right_icons(PanelUi& e, std::optional<bool> locked, bool visible, con
     ImGui::SameLine();
     ImGui::SetCursorScreenPos({end.x - (locked ? 2 : 1) * size - ImGui::GetStyle().ItemSpacing.x / 2, top.y});
     if (locked) {
-        // Open locks everywhere would drown the closed ones: they show on hover only.
+        // Open locks are shown on hover only, so that closed ones stand out.
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         const bool near = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && mouse.y >= top.y &&
                           mouse.y < top.y + size;
         if (!*locked && !near) ImGui::PushStyleVar(ImGuiStyleVar_Alpha, 0);
         pressed.lock = icon_button(
             "lock", *locked ? Icon::lock : Icon::lock_open, *locked,
-            *locked ? "Locked: clicks in the picture go through it" : "Lock: clicks in the picture go through it");
+            *locked ? "Locked: clicks in the picture ignore it" : "Lock: clicks in the picture will ignore it");
         if (!*locked && !near) ImGui::PopStyleVar();
         e.mark("outliner.lock." + name);
         ImGui::SameLine(0, 0);
@@ -110,7 +110,7 @@ void instance_menu(SelectContext& e, OutlinerState& state, const Row& row) {
     for (const char* action : {"edit.duplicate", "edit.delete", "select.hide", "select.isolate", "view.frame_selected"})
         menu_item(e, action);
     ImGui::Separator();
-    if (ImGui::MenuItem("Group what is selected")) group_selected(e);
+    if (ImGui::MenuItem("Group the selection")) group_selected(e);
     if (ImGui::MenuItem("Take out of the group", nullptr, false, bool(instance.group))) move_to_group(e, {});
     ImGui::Separator();
     if (ImGui::MenuItem("Select all with this material")) {
@@ -120,7 +120,7 @@ void instance_menu(SelectContext& e, OutlinerState& state, const Row& row) {
         });
         e.selection.set(same);
     }
-    if (ImGui::MenuItem("List only what uses this material", nullptr, false, bool(instance.material)))
+    if (ImGui::MenuItem("List only users of this material", nullptr, false, bool(instance.material)))
         state.material = instance.material;
     e.mark("outliner.menu.material");
 }
@@ -209,7 +209,7 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
         if (ImGui::MenuItem("Select")) e.selection.set(instances_in(e.scene(), id));
         if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, group->name);
         if (ImGui::MenuItem("Enter")) e.selection.enter(id);
-        tip("Clicks in the picture select single objects of it; Esc leaves");
+        tip("Clicks in the picture select its single objects; Esc leaves");
         if (ImGui::MenuItem("Ungroup")) ungroup(e, id);
         ImGui::EndPopup();
     }
@@ -285,7 +285,8 @@ void draw_row(SelectContext& e, OutlinerState& state, const Row& row) {
     ImGui::PushID(int(row.kind));
     ImGui::PushID(int(row.id));
     const float indent = float(row.depth) * ImGui::GetStyle().IndentSpacing;
-    if (row.kind != Row::Kind::group && row.kind != Row::Kind::header) // names of objects stand under names of groups
+    if (row.kind != Row::Kind::group &&
+        row.kind != Row::Kind::header) // names of objects are aligned with names of groups
         ImGui::Indent(indent + (row.kind == Row::Kind::instance ? ImGui::GetFrameHeight() * 0.6f : 0.01f));
     else if (indent > 0)
         ImGui::Indent(indent);
@@ -332,7 +333,7 @@ void draw_outliner(SelectContext& e) {
     if (const scene::Material* material = e.scene().materials.find(state.material)) {
         if (ImGui::Button(fmt::format("Uses {}   x###filter", material->name).c_str(), {-FLT_MIN, 0}))
             state.material = {};
-        tip("Only what uses this material is listed. Click to list everything");
+        tip("Only users of this material are listed. Click to list everything");
         e.mark("outliner.filter");
     } else {
         state.material = {};
@@ -344,7 +345,7 @@ void draw_outliner(SelectContext& e) {
     if (ImGui::BeginChild("rows", {0, 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
         outliner_keys(e, state);
         const float height = ImGui::GetFrameHeight();
-        if (e.selection.active() != state.last_active) { // picked elsewhere: scroll to it
+        if (e.selection.active() != state.last_active) { // selected elsewhere: scroll to it
             state.last_active = e.selection.active();
             const int row = find_row(state, state.last_active);
             const float y = float(row) * height;

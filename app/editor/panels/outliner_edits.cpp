@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the outliner does to groups.
+// The outliner's edits of groups.
 #include "outliner.hpp"
 #include "scene/edits.hpp"
 #include "scene/merge.hpp"

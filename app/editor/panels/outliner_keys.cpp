@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What keys do in the outliner.
+// Keys in the outliner.
 #include "outliner.hpp"
 
 #include <imgui.h>
@@ -26,7 +26,7 @@ void select_row(SelectContext& e, OutlinerState& state, const Row& row, bool add
     state.last_active = e.selection.active(); // the list is scrolled here
 }
 
-// The key cursor's row: what was clicked last, else the active object.
+// The key cursor's row: the last clicked one, else the active object.
 void rename_row(SelectContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
     const auto start = [&](const auto* item) {
@@ -65,7 +65,7 @@ void outliner_keys(SelectContext& e, OutlinerState& state) {
         last = i;
         if (same_row(row, state.cursor)) now = i;
     }
-    // Continue from what was picked elsewhere meanwhile.
+    // Continue from a selection made elsewhere meanwhile.
     const bool picked = e.selection.active() && state.cursor.kind == Row::Kind::instance &&
                         state.cursor.id != e.selection.active().value;
     if (now < 0 || picked)
@@ -82,7 +82,7 @@ void outliner_keys(SelectContext& e, OutlinerState& state) {
     };
     if (key(ImGuiKey_DownArrow)) return go(now < 0 ? first : now + 1, 1);
     if (key(ImGuiKey_UpArrow)) return go(now < 0 ? last : now - 1, -1);
-    if (io.WantTextInput || now < 0) return; // these two are the search field's
+    if (io.WantTextInput || now < 0) return; // these two belong to the search field
     const Row row = state.rows[std::size_t(now)];
     const bool group = row.kind == Row::Kind::group;
     if (key(ImGuiKey_RightArrow) && group) state.open.insert(row.id);

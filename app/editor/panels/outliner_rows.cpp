@@ -42,7 +42,7 @@ void list_objects(const scene::Scene& s, OutlinerState& state, bool filtered) {
             if (i.listed) wanted[group.value] = true;
         }
     }
-    s.groups.each([&](GroupId id, const scene::Group& g) { // a group can be found by its own name
+    s.groups.each([&](GroupId id, const scene::Group& g) { // the filter also applies to a group's own name
         if (!state.search.empty() && !state.material && contains_word(g.name, state.search)) wanted[id.value] = true;
     });
 
@@ -87,7 +87,7 @@ int find_row(const OutlinerState& state, InstanceId id) {
 
 void update_rows(const SelectContext& e, OutlinerState& state) {
     const scene::Scene& s = e.scene();
-    // Reveal what was picked elsewhere: open the groups around it.
+    // Reveal a selection made elsewhere: open its groups.
     if (const scene::Instance* active = s.instances.find(e.selection.active());
         active && e.selection.active() != state.last_active && e.selection.instances().size() == 1)
         for (GroupId group = active->group; const scene::Group* item = s.groups.find(group); group = item->parent)
@@ -116,7 +116,7 @@ void update_rows(const scene::Scene& s, OutlinerState& state) {
     bool rows_change = since == ~scene::Version(0) || s.clock < since || !same_filter ||
                        state.made_open != state.open || s.groups.version() > since ||
                        (filtered && s.materials.version() > since);
-    if (!rows_change) { // most edits change nothing of an object that is listed
+    if (!rows_change) { // most edits do not affect the list
         bool same = state.seen.size() == s.instances.size();
         s.instances.each_changed(since, [&](InstanceId id, const scene::Instance* i) {
             same = same && state.seen[id.value - 1] == seen(i);

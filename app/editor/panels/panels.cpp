@@ -9,7 +9,7 @@ namespace restage::editor {
 
 namespace {
 
-// Calls the panel with those parts of the context that its parameters name.
+// Calls the panel with the parts of the context in its parameters.
 template <auto draw>
 void give(PanelContext& e) {
     [&]<class... Parts>(void (*panel)(Parts&...)) { panel(static_cast<Parts&>(e)...); }(draw);
@@ -18,16 +18,17 @@ void give(PanelContext& e) {
 constexpr auto panels = std::to_array<Panel>({
     {"Viewport", draw_viewport, Dock::center, true, "The picture"},
     {"Outliner", give<draw_outliner>, Dock::left, true, "Everything in the scene, by name"},
-    {"Inspector", give<draw_inspector>, Dock::right, true, "What is selected: its place, material and light"},
-    {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and how it is rendered"},
+    {"Inspector", give<draw_inspector>, Dock::right, true, "The selection: its place, material and light"},
+    {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and rendering"},
     {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
     {"Import report", give<draw_import_report>, Dock::bottom, true,
-     "What was kept, approximated or dropped when opening"},
+     "What was kept, approximated or dropped on opening"},
     {"Convergence", give<draw_convergence>, Dock::bottom, true, "Estimated error against time and samples"},
-    {"Plugins", give<draw_plugins>, Dock::bottom, false, "What is loaded, from where, and what is not and why"},
-    {"Assets", give<draw_assets>, Dock::bottom, true, "Scenes, skies, textures and meshes to bring in"},
+    {"Plugins", give<draw_plugins>, Dock::bottom, false,
+     "Loaded plugins and their folders, and why others are not loaded"},
+    {"Assets", give<draw_assets>, Dock::bottom, true, "Scenes, skies, textures and meshes to add"},
     {"Log", give<draw_log>, Dock::bottom, true, "What happened"},
-    {"Help", give<draw_help>, Dock::floating, false, "Every shortcut, and how to get around"},
+    {"Help", give<draw_help>, Dock::floating, false, "All shortcuts, and how to navigate"},
 });
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels: functions that draw the editor's state into a Dear ImGui window of their own and ask it for changes. Each
-// takes the parts of the context that it uses (contexts.hpp). To add one: a file here, a line here, a line in the table
-// of panels.cpp.
+// The panels: functions that draw the editor's state into their own Dear ImGui window and request changes. Each takes
+// the parts of the context that it uses (contexts.hpp). To add one: a new file, a line here, a line in the table of
+// panels.cpp.
 #pragma once
 
 #include "assets.hpp"
@@ -25,16 +25,16 @@ void draw_history(EditContext& editor);
 void draw_assets(SelectContext& editor);
 void draw_help(PanelUi& editor, PictureView& picture);
 
-// The last item (the picture) takes what is dragged from the assets: an image onto an object or the background, a mesh,
+// Makes the last item (the picture) a drop target for assets: an image on an object or the background, a mesh,
 // a scene.
 void accept_asset(PanelContext& editor);
 // All assets of a kind, whether the panel was shown or not.
 std::vector<std::string> assets_of(PanelUi& editor, AssetKind kind);
-// A small picture of that file; it is read on first use.
+// A thumbnail of that file, read on first use.
 const AssetsState::Thumbnail& thumbnail_of(PanelUi& editor, const std::string& file);
-// Records the error of the live picture, whether the panel is shown or not; once a frame.
+// Records the error of the live picture, whether the panel is shown or not; call once per frame.
 void follow_convergence(PanelUi& editor, const PictureView& picture);
-// Takes over the sky that a plugin has made meanwhile; once a frame.
+// Applies the sky that a plugin has generated meanwhile; call once per frame.
 void follow_sky(EditContext& editor);
 
 enum class Dock { center, left, right, bottom, floating };

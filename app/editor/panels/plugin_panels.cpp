@@ -32,7 +32,7 @@ void read_values(PanelUi& e) {
     for (const auto& [panel, values] : json.items()) {
         if (!values.is_object()) continue;
         for (const auto& [id, given] : values.items()) {
-            scene::Value v; // of no type yet: a panel takes it as its table says
+            scene::Value v; // untyped: the panel converts it according to its table
             if (given.is_string())
                 v.text = given.get<std::string>();
             else if (given.is_array())
@@ -49,11 +49,11 @@ void write_values(PanelUi& e) {
     for (const auto& [panel, values] : e.panel_state->plugins.remembered)
         for (const auto& [id, v] : values.entries())
             json[panel][id] = v.text.empty() ? nlohmann::json(v.v) : nlohmann::json(v.text);
-    // What cannot be remembered is no reason to bother anybody.
+    // Failing to store the values is not worth a message.
     (void)write_file_atomic(file_of(e), json.dump(1) + "\n");
 }
 
-// What was remembered, as the table's lines have it; what does not fit any more is left out.
+// Stored values, converted to the types of the table's lines; values that are no longer valid are omitted.
 scene::ParamSet typed(model::ParamTable table, const scene::ParamSet& remembered) {
     scene::ParamSet values;
     for (const model::Param& line : table) {
@@ -87,12 +87,12 @@ bool set_aside(const PluginState& state, const plugin::PanelEntry& panel) {
            !panel.library.owner_before(found->second);
 }
 
-// Of the panel's values those the action has, too.
+// The panel's values that the action has as well.
 bool run(SelectContext& e, const plugin::PanelEntry& panel, const std::string& id, const scene::ParamSet& values) {
     const auto action = document::find_action(e.registry(), id);
     if (!action || action->plugin->manifest.id != panel.plugin->manifest.id) {
         e.notices.add(LogLevel::error,
-                      panel.plugin->name() + ": its panel runs \"" + id + "\", which is no action of it");
+                      panel.plugin->name() + ": its panel runs \"" + id + "\", which is not one of its actions");
         return false;
     }
     scene::ParamSet fitting;
@@ -113,8 +113,8 @@ void draw_panel(SelectContext& e, const plugin::PanelEntry& panel) {
     const model::Panel& table = *panel.table;
     if (set_aside(state, panel)) {
         error_note((panel.plugin->name() +
-                    " failed while it drew this panel, which is off until the plugin is rebuilt. "
-                    "The log has its error.")
+                    " failed while it drew this panel, which is disabled until the plugin is rebuilt. "
+                    "The error is in the log.")
                        .c_str());
         e.mark("panel." + table.id + ".broken");
         if (ImGui::Button("Try again")) state.broken.erase(table.id);
@@ -125,10 +125,10 @@ void draw_panel(SelectContext& e, const plugin::PanelEntry& panel) {
     scene::ParamSet& values = found->second;
     if (fresh) values = typed(table.params, state.remembered[table.id]);
     const scene::ParamSet before = values;
-    for (const auto& [id, value] : before.entries()) // of a version of the plugin before there may be others
+    for (const auto& [id, value] : before.entries()) // may have other values of an earlier version of the plugin
         if (const model::Param* line = table.find(id); !line || !misfit(*line, value).empty()) values.remove(id);
     const std::string mark = "panel." + table.id;
-    const scene::ParamSet shown = values; // while the plugin draws
+    const scene::ParamSet shown = values; // during the plugin's draw()
     const auto drawn = draw_plugin_panel(
         panel, {.editor = e,
                 .table = table.params,
@@ -151,7 +151,7 @@ void draw_panel(SelectContext& e, const plugin::PanelEntry& panel) {
                             values.set(id, std::move(v));
                     },
                 .run = [&](const std::string& action) { return run(e, panel, action, values); }});
-    if (!drawn) { // what it has set meanwhile does not count
+    if (!drawn) { // values that it has set meanwhile are discarded
         values = shown;
         state.broken[table.id] = panel.library;
         e.notices.add(LogLevel::error, table.label + ": " + drawn.error().message);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panels of plugins (restage/action.h). Their values are no part of a document: they are remembered in the
-// configuration folder.
+// Panels of plugins (restage/action.h). Their values are not part of a document: they are stored in the configuration
+// folder.
 #pragma once
 
 #include "contexts.hpp"
@@ -10,7 +10,7 @@
 
 namespace restage::editor {
 
-// Of its window, and in the table of those that are open: another plugin's may have the same label.
+// Key of its window, and in the table of open panels, as labels need not be unique among plugins.
 std::string panel_title(const model::Panel& panel);
 void draw_panel(SelectContext& editor, const plugin::PanelEntry& panel); // between Begin and End
 

@@ -25,12 +25,12 @@ class HostWidgets final : public plugin::PanelWidgets {
     const PluginUi& ui;
     std::set<std::string> shown;
     int open_groups = 0;
-    int widgets = 0; // so far: names those without a parameter
+    int widgets = 0; // so far: identifies those without a parameter
     std::string held; // of the last get()
 
     SelectContext& editor() const { return ui.editor; }
     const model::Param* line(const char* id) const { return id ? model::find_param(ui.table, id) : nullptr; }
-    // Notes that the parameter is shown; null, and a line in the log, if none has this id and one of these kinds.
+    // Records that the parameter is shown; null, and a log line, if none has this id and one of these types.
     const model::Param* claim(const char* id, std::initializer_list<model::ParamType> types) {
         const model::Param* found = line(id);
         if (found && (types.size() == 0 || std::find(types.begin(), types.end(), found->type) != types.end())) {
@@ -90,7 +90,7 @@ class HostWidgets final : public plugin::PanelWidgets {
         const model::Param* p =
             claim(id, {model::ParamType::number, model::ParamType::color, model::ParamType::texture});
         if (!p) return;
-        model::Param slot = *p; // shown as a slot that only a texture fills
+        model::Param slot = *p; // shown as a slot for a texture only
         slot.type = model::ParamType::texture;
         if (label && *label) slot.label = label;
         ui.row(slot.type == p->type || p->texturable ? slot : *p);
@@ -139,7 +139,7 @@ class HostWidgets final : public plugin::PanelWidgets {
         ImGui::TreePop();
     }
 
-// A frame with a label on top, as wide as the panel; returns its corners.
+// A frame with a label on top, as wide as the panel. Returns its corners.
     std::pair<ImVec2, ImVec2> chart(const char* label, float lines, const std::string& mark) {
         if (label && *label) ImGui::TextDisabled("%s", label);
         const ImVec2 a = ImGui::GetCursorScreenPos();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's side of RestageUi1 (restage/inspector.h): a plugin describes its part of the inspector, or its panel, by
-// widgets that name parameters; where their values are is the caller's.
+// The host's side of RestageUi1 (restage/inspector.h): a plugin describes its inspector, or its panel, by widgets that
+// name parameters; the caller stores the values.
 #pragma once
 
 #include "contexts.hpp"
@@ -19,16 +19,16 @@ struct PluginUi {
     SelectContext& editor;
     model::ParamTable table;
     const scene::ParamSet& values;
-    std::string mark; // what widgets are called in tests: "material"
+    std::string mark; // prefix of the widgets' names in tests: "material"
     std::string who;  // for messages: "org.example.velvet: its inspector"
     Blame blame;
-    std::function<void(const model::Param&)> row; // the host's own row of a parameter
-    std::function<void(const model::Param&, scene::Value)> change; // as the user drags
+    std::function<void(const model::Param&)> row; // the host's row of a parameter
+    std::function<void(const model::Param&, scene::Value)> change; // during a drag
     std::function<void(std::string label, std::vector<std::pair<std::string, scene::Value>>)> set; // several at once
     std::function<bool(const std::string& action)> run = {}; // of a panel: false = not started
 };
 
-// Draws what the plugin has to show. Returns the ids of the parameters it showed.
+// Draws the plugin's widgets. Returns the ids of the parameters it showed.
 std::set<std::string> draw_plugin_inspector(const plugin::Inspector& inspector, const PluginUi& ui);
 // An error if the plugin threw an exception.
 Result<> draw_plugin_panel(const plugin::PanelEntry& panel, const PluginUi& ui);

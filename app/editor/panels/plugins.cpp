@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plugins: which are loaded, from where, which are not and why; and whether they do what they promise.
+// Plugins: loaded ones and their folders, refused ones and the reasons; and checks whether they meet their contract.
 #include "panels.hpp"
 
 #include "base/file.hpp"
@@ -70,7 +70,7 @@ void buttons(DocumentContext& e, const plugin::Entry& entry) {
     }
     if (entry.manifest.id.empty()) return;
     if (ImGui::SmallButton("Check")) start_check(e, entry);
-    tip("Test whether it does what it promises, in a process of its own: samples against density and value, energy, "
+    tip("Test whether it meets its contract, in a separate process: samples against density and value, energy, "
         "reciprocity, non-finite numbers. `restage check` tests more");
     e.mark("plugins.check." + entry.name());
 }
@@ -85,8 +85,8 @@ void draw_plugins(DocumentContext& e) {
     ImGui::TextDisabled("%zu loaded, %zu refused", entries.size() - refused, refused);
     if (entries.empty()) {
         empty_note(
-            "No plugins were found: nothing can be opened or rendered. Searched: beside the program, in the "
-            "user's plugin folder, and in those that RESTAGE_PLUGIN_PATH names.");
+            "No plugins were found: nothing can be opened or rendered. Searched: next to the program, in the "
+            "user's plugin folder, and in the folders of RESTAGE_PLUGIN_PATH.");
         return;
     }
     if (!ImGui::BeginTable("plugins", 5,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, camera and film: how the scene is looked at, and the picture's size.
+// Scene panel, camera and film: the viewpoint and the picture's size.
 #include "scene_panel.hpp"
 
 #include "actions.hpp"
@@ -56,7 +56,7 @@ void ask_film(EditContext& e, const scene::Film& film, const char* label, const 
                 fitted.frame_aspect = 0;
                 fitted.screen_window.reset();
                 if (camera->projection == scene::Projection::orthographic &&
-                    camera->screen_window) { // it is also the scale
+                    camera->screen_window) { // it also determines the scale
                     const glm::vec4 w = *camera->screen_window;
                     const float middle = (w.x + w.y) / 2,
                                 half = (w.w - w.z) / 2 * float(film.width) / float(film.height);
@@ -73,7 +73,7 @@ void filter_rows(EditContext& e, scene::Film film) {
     static constexpr const char* kinds[] = {"Box", "Triangle", "Gaussian", "Mitchell", "Sinc"};
     int kind = int(film.filter.kind);
     form_row("Pixel filter",
-             "How a pixel is made of the samples around it: wide filters are softer, Mitchell and Sinc sharper");
+             "How samples are combined into pixels: wide filters are softer, Mitchell and Sinc sharper");
     if (ImGui::Combo("##filter", &kind, kinds, IM_ARRAYSIZE(kinds))) {
         // pbrt-v4's defaults.
         static constexpr scene::Filter defaults[] = {{scene::FilterKind::box, {0.5f, 0.5f}, {0, 0}},
@@ -85,7 +85,7 @@ void filter_rows(EditContext& e, scene::Film film) {
         ask_film(e, film, "Pixel filter", "");
     }
     e.mark("film.filter");
-    form_row("Filter radius", "Across and up");
+    form_row("Filter radius", "Horizontal and vertical");
     bool changed =
         ImGui::SliderFloat2("##radius", &film.filter.radius.x, 0.5f, 5, "%.2f px", ImGuiSliderFlags_AlwaysClamp);
     e.mark("film.filter_radius");
@@ -110,16 +110,15 @@ void ask_camera(EditContext& e, const scene::Camera& camera) {
            "scene.camera");
 }
 
-// How it maps the world to the picture, and how much of the world. True: changed.
+// Its projection and field of view. Returns true if changed.
 bool projection_rows(DocumentContext& e, scene::Camera& camera) {
     static constexpr const char* kinds[] = {"Perspective", "Orthographic", "Panorama", "Panorama, equal areas"};
-    form_row("Projection",
-             "How the world becomes a picture: as the eye sees it, without vanishing points, or all around");
+    form_row("Projection", "The projection: perspective, parallel, or a full panorama");
     int kind = int(camera.projection);
     bool changed = ImGui::Combo("##projection", &kind, kinds, IM_ARRAYSIZE(kinds));
     if (changed) {
         const bool was_parallel = camera.projection == scene::Projection::orthographic;
-        // The size of what is in the middle of the picture is kept.
+        // Keeps the size of things in the middle of the picture.
         const query::ViewRay ray = query::view_ray(camera, {0.5, 0.5}, e.film_aspect());
         const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
         const double distance = hits.empty() ? 1 : hits[0].t;
@@ -133,10 +132,10 @@ bool projection_rows(DocumentContext& e, scene::Camera& camera) {
     }
     e.mark("camera.projection");
     if (scene::is_spherical(camera)) {
-        empty_note("Sees all around. Handles are off: they would be bent.");
+        empty_note("Shows all directions. Handles are off, as they would be curved.");
     } else if (camera.projection == scene::Projection::orthographic) {
         glm::vec4 window(scene::film_window(camera, e.film_aspect()));
-        form_row("Height", "How much of the world is seen, from the picture's lower to its upper edge");
+        form_row("Height", "Visible height of the world, from the picture's lower to its upper edge");
         float height = window.w - window.z;
         if (ImGui::DragFloat("##height", &height, drag_speed(height, 1e-3f), 1e-6f, 1e9f, "%.3f units",
                              ImGuiSliderFlags_AlwaysClamp)) {
@@ -145,10 +144,9 @@ bool projection_rows(DocumentContext& e, scene::Camera& camera) {
         }
         e.mark("camera.height");
     } else {
-        form_row("Field of view",
-                 "How much is seen, along the picture's shorter side: small = telephoto, large = wide angle");
+        form_row("Field of view", "Along the picture's shorter side: small = telephoto, large = wide angle");
         changed |= ImGui::SliderFloat("##fov", &camera.fov, 1, 150, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-        tip(fmt::format("As a {:.0f} mm lens of a 35 mm camera", focal_length(camera) * 1000).c_str());
+        tip(fmt::format("Equivalent to a {:.0f} mm lens on a 35 mm camera", focal_length(camera) * 1000).c_str());
         e.mark("camera.fov");
     }
     return changed;
@@ -188,7 +186,7 @@ void camera_section(SelectContext& e) {
         ImGui::PopID();
         return; // it has no lens
     }
-    form_row("Depth of field", "Blurs what is nearer or farther than the focus distance, as a real lens does");
+    form_row("Depth of field", "Blurs objects nearer or farther than the focus distance, as a real lens does");
     if (bool blur = camera.lens_radius > 0; ImGui::Checkbox("##dof", &blur)) {
         camera.lens_radius = blur ? float(focal_length(camera) / (2 * 2.8)) : 0;
         // Pinhole cameras come with a focus somewhere: the middle of the picture is a better start.
@@ -208,12 +206,12 @@ void camera_section(SelectContext& e) {
             changed = true;
         }
         e.mark("camera.fnumber");
-        form_row("Lens radius", "The same as the aperture, in scene units: what the file holds");
+        form_row("Lens radius", "The aperture in scene units, as stored in the file");
         changed |= ImGui::DragFloat("##lens", &camera.lens_radius, drag_speed(camera.lens_radius, 1e-5f), 1e-6f, 1e6f,
                                     "%.5f units", ImGuiSliderFlags_AlwaysClamp);
         e.mark("camera.lens");
     }
-    form_row("Focus distance", "What is this far away along the view is sharp",
+    form_row("Focus distance", "Objects at this distance along the view are sharp",
              ImGui::CalcTextSize("Pick").x + 2 * ImGui::GetStyle().FramePadding.x);
     changed |=
         ImGui::DragFloat("##focus", &camera.focal_distance, drag_speed(camera.focal_distance, 1e-3f), 1e-4f, 1e9f,
@@ -221,7 +219,7 @@ void camera_section(SelectContext& e) {
     e.mark("camera.focus");
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("Pick")) e.pick_tool = focus_picker();
-    tip("Then click in the picture what should be sharp");
+    tip("Then click the object in the picture that should be sharp");
     e.mark("camera.pick_focus");
     if (changed) ask_camera(e, camera);
     ImGui::PopID();
@@ -255,8 +253,9 @@ void film_section(EditContext& e) {
     if (!ImGui::IsItemActive())
         e.panel_state->scene.aspect = e.film_aspect(); // from the start of a drag, as rounding would add up
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    if (icon_button("##aspect", keep ? Icon::lock : Icon::lock_open, keep,
-                    keep ? "The shape stays. Click to change width and height alone" : "Click to keep the shape"))
+    if (icon_button(
+            "##aspect", keep ? Icon::lock : Icon::lock_open, keep,
+            keep ? "The shape is kept. Click to change width and height separately" : "Click to keep the shape"))
         keep = !keep;
     e.mark("film.keep_aspect");
     const double aspect = e.panel_state->scene.aspect;
@@ -270,7 +269,8 @@ void film_section(EditContext& e) {
         film.height = std::uint32_t(wh[1]);
         ask_film(e, film, "Picture size", "film.size");
     }
-    form_row("Exposure", "Brightness of written pictures, and of the live one, whose own exposure is above it");
+    form_row("Exposure",
+             "Brightness of written pictures and of the live one, which also has its own exposure above it");
     if (ImGui::DragFloat("##exposure", &film.exposure, drag_speed(film.exposure, 1e-3f), 1e-6f, 1e6f, "%.4g×",
                          ImGuiSliderFlags_AlwaysClamp))
         ask_film(e, film, "Exposure", "film.exposure");

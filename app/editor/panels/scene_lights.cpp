@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, lights: what emits light, and new lights where the camera looks.
+// Scene panel, lights: all emitters, and new lights where the camera looks.
 #include "scene_panel.hpp"
 
 #include "document/session.hpp"
@@ -22,7 +22,7 @@ namespace restage::editor {
 
 namespace {
 
-// A place above what is in the middle of the picture, under any ceiling, and how far above it is.
+// A point above the surface in the middle of the picture, below any ceiling, and its height above it.
 struct Place {
     glm::dvec3 target{0}, above{0};
     double height = 1;
@@ -43,7 +43,7 @@ Place place_for_light(const SelectContext& e) {
     return place;
 }
 
-// Shines along +z: `direction`.
+// Emits along +z, which becomes `direction`.
 glm::dmat4 aimed(const glm::dvec3& at, const glm::dvec3& direction) {
     const glm::dvec3 z = glm::normalize(direction);
     const glm::dvec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
@@ -54,7 +54,7 @@ void add_light(SelectContext& e, const scene::LightKindRow& row) {
     const Place place = place_for_light(e);
     const auto h2 = float(place.height * place.height);
     scene::Light light{.kind = row.kind, .light_to_world = aimed(place.above, -e.up())};
-    // Bright enough to see: 10 W/m2 on what is below.
+    // A visible brightness: 10 W/m2 on the surface below.
     light.name = row.name;
     light.value = row.placed ? glm::vec3(10 * h2) : glm::vec3(10);
     if (!row.placed) // from behind the camera's shoulder
@@ -144,7 +144,7 @@ void lights_section(SelectContext& e) {
         ImGui::PopID();
         ++shown;
     });
-    if (emitters > most) ImGui::TextDisabled("and %zu more objects that shine", emitters - most);
+    if (emitters > most) ImGui::TextDisabled("and %zu more emissive objects", emitters - most);
     if (shown == 0) empty_note("There are no lights but the sky.");
     for (const scene::LightKindRow& row : scene::light_kinds) {
         if (flow_button((std::string("+ ") + row.label).c_str(), &row == scene::light_kinds)) add_light(e, row);
@@ -152,7 +152,7 @@ void lights_section(SelectContext& e) {
         e.mark(std::string("lights.add_") + row.id);
     }
     if (flow_button("+ Area")) add_area_light(e);
-    tip("A square that shines downwards: soft shadows");
+    tip("A square that emits downwards: soft shadows");
     e.mark("lights.add_area");
     ImGui::PopID();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of the Scene panel, and what a scene may lack to be visible: a sky, lights.
+// The sections of the Scene panel, and light for scenes without any: a sky, lights.
 #pragma once
 
 #include "contexts.hpp"
@@ -16,9 +16,9 @@ void render_section(EditContext& editor, PictureView& picture);
 
 // False if nothing in the scene emits light: its picture is black.
 bool has_light(const DocumentContext& editor);
-// As one step: document::light_studio.
+// As one undo step: document::light_studio.
 void light_with_studio(EditContext& editor);
-// The image becomes the sky; read on another thread.
+// Sets the image as the sky; it is read on another thread.
 void use_as_sky(EditContext& editor, const std::string& file);
 
 } // namespace restage::editor

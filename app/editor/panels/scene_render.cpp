@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, rendering: how the picture is computed. Settings of the scene are undone and saved; those of this
+// Scene panel, rendering settings. Settings of the scene are undone and saved; those of this
 // machine (targets of the live picture, device, threads) are not.
 #include "scene_panel.hpp"
 
@@ -27,7 +27,7 @@ void scene_rows(EditContext& e) {
     scene::Settings settings = e.scene().settings.value;
     bool changed = false;
     int samples = int(settings.samples), depth = int(settings.max_depth);
-    form_row("Samples", "Light paths for each pixel: twice as many take twice the time and leave 0.7 of the noise");
+    form_row("Samples", "Light paths per pixel: twice as many take twice the time and leave 0.7 of the noise");
     changed |= ImGui::DragInt("##samples", &samples, std::max(1.f, float(samples) * 0.01f), 1, 1 << 20, "%d a pixel",
                               ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.samples");
@@ -46,15 +46,15 @@ void scene_rows(EditContext& e) {
         e.mark(mark + 2); // without the ##
     };
     clamp_row("Limit direct",
-              "Cuts bright specks of light that comes straight from a lamp, and with them some light: the picture gets "
+              "Removes bright specks of light directly from a lamp, and some light with them: the picture gets "
               "too dark there (clamping, biased). 0 = off",
               settings.clamp_direct, "##render.clamp_direct");
     clamp_row("Limit indirect",
-              "Cuts bright specks of light that was reflected before, and with them some light (clamping of fireflies, "
+              "Removes bright specks of reflected light, and some light with them (clamping of fireflies, "
               "biased). 0 = off",
               settings.clamp_indirect, "##render.clamp_indirect");
     form_row("Ray offset",
-             "How far rays start from a surface. 0 = from the rounding error of each hit, which is right almost "
+             "Distance of ray origins from a surface. 0 = from the rounding error of each hit, which is right almost "
              "always; else a distance in scene units");
     changed |= ImGui::DragFloat("##epsilon", &settings.ray_epsilon, drag_speed(settings.ray_epsilon, 1e-6f), 0, 1,
                                 settings.ray_epsilon > 0 ? "%.2g units" : "Automatic", ImGuiSliderFlags_AlwaysClamp);
@@ -69,14 +69,14 @@ void scene_rows(EditContext& e) {
             "scene.settings");
 }
 
-// Loaded denoisers by name; the choice is kept over restarts.
+// Loaded denoisers by name; the choice persists.
 void denoiser_row(EditContext& e, PictureView& picture) {
     const auto denoisers = e.registry().denoisers();
     const std::string& now = e.preferences.denoiser;
     std::string shown = now.empty() ? "Built-in" : now + " (not loaded)";
     for (const plugin::DenoiserEntry& entry : denoisers)
         if (now == entry.table->type || now == entry.plugin->manifest.id) shown = entry.table->label;
-    form_row("Denoiser", "Which one cleans the live picture and final ones; remembered for all scenes");
+    form_row("Denoiser", "The denoiser for live and final pictures; stored for all scenes");
     const bool open = ImGui::BeginCombo("##denoiser", shown.c_str());
     e.mark("render.denoiser");
     if (!open) return;
@@ -120,7 +120,7 @@ void live_rows(EditContext& e, PictureView& picture) {
                          ImGuiSliderFlags_AlwaysClamp))
         picture.view.error = double(error) / 100;
     e.mark("render.error");
-    form_row("Resolution", "Less is faster and coarser: pixels of the live picture per screen pixel");
+    form_row("Resolution", "Pixels of the live picture per screen pixel: less is faster and coarser");
     ImGui::SliderFloat("##resolution", &picture.view.resolution, 0.1f, 2, "%.2f×", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.resolution");
 }
@@ -166,11 +166,11 @@ void machine_rows(EditContext& e, PictureView& picture) {
     }
     e.mark("render.threads");
     if (status.gpu_bytes) {
-        form_row("Memory", "Memory of the scene on the graphics card, or on the processor that stands in for one");
+        form_row("Memory", "Memory of the scene on the graphics card, or in main memory if the CPU replaces it");
         ImGui::TextDisabled("%.0f MiB", double(status.gpu_bytes) / 1048576);
     }
     for (const auto& [type, count] : status.not_finite)
-        warning_note(fmt::format("{} samples of {} were not finite and were dropped.", count, type).c_str());
+        warning_note(fmt::format("{} samples of {} were non-finite and were dropped.", count, type).c_str());
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene panel, sky: what is visible, and emits light, where the scene ends.
+// Scene panel, sky: the environment, visible and emitting light where the scene ends.
 #include "document/session.hpp"
 #include "panel_context.hpp"
 #include "panels.hpp"
@@ -30,10 +30,10 @@ namespace {
 
 using scene::Environment;
 
-// The part of a rotation that is about `axis` [deg] (swing-twist decomposition): turning by d about it adds d.
+// The part of a rotation about `axis` [deg] (swing-twist decomposition): a rotation by d about it adds d.
 double twist(const glm::dmat4& m, const glm::dvec3& axis) {
     glm::dmat3 r(m);
-    if (glm::determinant(r) < 0) r[0] = -r[0]; // a mirrored sky has its mirror image's twist
+    if (glm::determinant(r) < 0) r[0] = -r[0]; // a mirrored sky has the twist of its mirror image
     for (int i = 0; i < 3; ++i)
         r[i] = glm::normalize(r[i]);
     const glm::dquat q(r);
@@ -48,7 +48,7 @@ void ask_sky(EditContext& e, std::optional<Environment> sky, const char* label, 
            gesture);
 }
 
-// Candidate files: assets, and the scene's images. Bump maps and the like are left out.
+// Candidate files: assets, and the scene's images. Bump maps and the like are excluded.
 std::vector<std::string> known_skies(DocumentContext& e) {
     std::vector<std::string> known;
     const auto add = [&](const std::string& path) {
@@ -58,13 +58,13 @@ std::vector<std::string> known_skies(DocumentContext& e) {
         const auto small = e.panel_state->assets.thumbnails.find(path);
         const bool seen = small != e.panel_state->assets.thumbnails.end();
         if (seen && small->second.failed) continue;
-        // Only a thumbnail's shape counts; a missing one gets the benefit of the doubt.
+        // Only the shape of the thumbnail matters; files without one are included.
         const bool shaped = seen && small->second.size.y > 0;
         const auto wide =
             std::uint32_t(shaped ? std::lround(4096 * small->second.size.x / small->second.size.y) : 8192);
         if (plausible_sky(path, wide, 4096)) add(path);
     }
-    std::set<std::uint32_t> on_surfaces; // images that textures show
+    std::set<std::uint32_t> on_surfaces; // images used by textures
     e.scene().textures.each([&](auto, const scene::Texture& t) { on_surfaces.insert(t.image.value); });
     e.scene().images.each([&](scene::Id<scene::Image> id, const scene::Image& i) {
         const bool sky = e.scene().environment.value && e.scene().environment.value->image == id;
@@ -76,13 +76,13 @@ std::vector<std::string> known_skies(DocumentContext& e) {
 
 void image_row(EditContext& e, const Environment& sky) {
     const scene::Image* image = e.scene().images.find(sky.image);
-    form_row("Image", image ? image->path.c_str() : "A panorama that shines from all around: HDR or EXR is best");
+    form_row("Image", image ? image->path.c_str() : "A panorama as the environment: HDR or EXR is best");
     if (ImGui::Button(image ? (image->name + "###image").c_str() : "Choose...###image", {ImGui::CalcItemWidth(), 0}))
         ImGui::OpenPopup("sky image");
     if (image && !image->data)
         tip("The file could not be read: see Import report");
     else
-        tip("Choose another; or drop an image here");
+        tip("Choose another, or drop an image here");
     e.mark("sky.image");
     if (ImGui::BeginDragDropTarget()) {
         if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path"))
@@ -127,7 +127,7 @@ void image_row(EditContext& e, const Environment& sky) {
     ImGui::EndPopup();
 }
 
-// --- skies that plugins make
+// --- skies of plugins
 // -----------------------------------------------------------------------------------------------------------
 
 void ask_made_sky(DocumentContext& e, const plugin::SkyEntry& sky, scene::ParamSet values, std::string gesture) {
@@ -151,7 +151,7 @@ void sky_param(EditContext& e, const plugin::SkyEntry& sky, const scene::ParamSe
 void sky_params(EditContext& e, const Environment& now) {
     const auto sky = io::find_sky(e.registry(), now.sky);
     if (!sky)
-        return warning_note(fmt::format("No plugin provides \"{}\". Its picture stays, coarse where it was saved "
+        return warning_note(fmt::format("No plugin provides \"{}\". Its picture is kept, a coarse one if it was saved "
                                         "without; its values are kept and written back.",
                                         now.sky)
                                 .c_str());
@@ -221,16 +221,16 @@ void sky_section(EditContext& e) {
     if (!open) return;
     ImGui::PushID("sky");
     if (!has_light(e)) {
-        warning_note("Nothing shines in this scene, so its picture is black.");
+        warning_note("Nothing emits light in this scene, so its picture is black.");
         if (ImGui::Button("Light it with a neutral studio")) light_with_studio(e);
-        tip("Soft grey light from all around; in a closed room a lamp at the camera as well");
+        tip("Soft grey light from all directions; in a closed room also a lamp at the camera");
         e.mark("sky.studio");
     }
     const auto& now = e.scene().environment.value;
     static constexpr const char* kinds[] = {"None", "One colour", "Image", "Neutral studio"};
     const bool made = now && !now->sky.empty();
     int kind = !now ? 0 : made ? 4 : !now->image ? 1 : 2;
-    form_row("Sky", "What emits light where the scene ends");
+    form_row("Sky", "The light beyond the scene");
     if (ImGui::BeginCombo("##kind", made ? now->name.c_str() : kinds[kind])) {
         for (int i = 0; i < 4; ++i) {
             if (ImGui::Selectable(kinds[i], i == kind) && i != kind) {
@@ -268,7 +268,7 @@ void sky_section(EditContext& e) {
         if (sky.image) {
             const double before = twist(sky.light_to_world, e.up());
             double angle = wrapped(before);
-            form_row("Rotation", "Turns the sky, and the sun in it, about the scene's up");
+            form_row("Rotation", "Rotates the sky, including its sun, about the scene's up");
             if (ImGui::DragScalar("##rotation", ImGuiDataType_Double, &angle, 0.5f, nullptr, nullptr, "%.1f°")) {
                 sky.light_to_world =
                     glm::rotate(glm::dmat4(1), glm::radians(angle - before), e.up()) * sky.light_to_world;
@@ -279,7 +279,7 @@ void sky_section(EditContext& e) {
         float strength = std::max({sky.scale.x, sky.scale.y, sky.scale.z});
         glm::vec3 tint = strength > 0 ? sky.scale / strength : glm::vec3(1);
         form_row(sky.image ? "Tint" : "Colour",
-                 sky.image ? "Multiplies the image's colours" : "Colour of the light from all around");
+                 sky.image ? "Multiplies the image's colours" : "Colour of the light from all directions");
         if (color_field("##tint", &tint.x)) {
             if (const float most = std::max({tint.x, tint.y, tint.z}); most > 0) tint /= most;
             changed = true;
@@ -289,8 +289,7 @@ void sky_section(EditContext& e) {
         changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e6f,
                                     sky.image ? "%.4g×" : "%.4g W/(m²sr)", ImGuiSliderFlags_AlwaysClamp);
         e.mark("sky.strength");
-        form_row("Hide from view",
-                 "Black behind everything in the picture. It still emits light, and mirrors and glass show it");
+        form_row("Hide from view", "Shows black instead. It still emits light, and is visible in mirrors and glass");
         if (bool hidden = sky.hidden_from_camera; ImGui::Checkbox("##hidden", &hidden)) {
             Environment other = *now;
             other.hidden_from_camera = hidden;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What panels remember from frame to frame. Not part of the document; one for each editor.
+// State that panels keep from frame to frame. Not part of the document; one per editor.
 #pragma once
 
 #include "assets.hpp"
@@ -23,7 +23,7 @@ namespace restage::editor {
 
 struct InspectorState {
     bool uniform_scale = true;
-    std::optional<glm::dvec3> euler; // last shown [deg]: kept while it still means the same rotation
+    std::optional<glm::dvec3> euler; // last shown [deg]: kept while they represent the current rotation
     InstanceId euler_of;
     struct Relative { // of several objects: the fields' values until released
         glm::dvec3 move{0}, turn{0}, scale{1};
@@ -44,7 +44,7 @@ struct OutlinerState {
         std::uint32_t id = 0; // of that kind
         int depth = 0;
     };
-    struct Seen { // of an object, by which its row is there
+    struct Seen { // of an object, which determines its row
         std::uint32_t group = 0;
         bool live = false, hidden = false, listed = false;
         bool operator==(const Seen&) const = default;
@@ -52,18 +52,18 @@ struct OutlinerState {
     std::vector<Row> rows; // objects and groups, then lights and cameras
     std::size_t object_rows = 0;
     std::vector<Seen> seen; // by id - 1
-    std::size_t lists = 0; // how often object rows were listed, for tests
+    std::size_t lists = 0; // number of times object rows were listed, for tests
     scene::Version made_for = ~std::uint64_t(0);
     std::string made_search;
     scene::Id<scene::Material> made_material;
     std::set<std::uint32_t> open, made_open; // groups
     std::vector<std::uint32_t> members, hidden; // objects in each group, at any depth
     std::string search;
-    scene::Id<scene::Material> material; // only what uses it
-    Row renaming{.id = 0}, cursor{.id = 0}; // cursor: where the arrow keys continue from
+    scene::Id<scene::Material> material; // list only its users
+    Row renaming{.id = 0}, cursor{.id = 0}; // cursor: the start for the arrow keys
     std::string new_name;
     bool focus_name = false;
-    InstanceId last_active; // scrolls when it changes elsewhere
+    InstanceId last_active; // the list scrolls when it changes elsewhere
 };
 
 struct SceneState {
@@ -97,24 +97,24 @@ struct ConvergenceState {
 };
 
 struct PluginState { // actions and panels of plugins
-    std::map<std::string, scene::ParamSet> asked; // of the dialog of an action, as it was left
-    std::map<std::string, scene::ParamSet> panels, remembered; // of each panel; `remembered` is on the disk
+    std::map<std::string, scene::ParamSet> asked; // of an action's dialog, from its last use
+    std::map<std::string, scene::ParamSet> panels, remembered; // of each panel; `remembered` is the stored version
     bool panels_read = false;
-    // Libraries whose panel threw an exception: it is not drawn until they are reloaded.
+    // Libraries whose panel threw an exception: not drawn until they are reloaded.
     std::map<std::string, std::weak_ptr<const void>> broken;
-    std::weak_ptr<const std::string> running; // what the action that runs is called; its job holds it
+    std::weak_ptr<const std::string> running; // label of the running action; held by its job
 };
 
 struct ImportState { // options of importers in the file browser
-    std::map<std::string, scene::ParamSet> options; // by format, as chosen last
-    std::filesystem::path file; // that they were last shown for
+    std::map<std::string, scene::ParamSet> options; // by format, the last chosen
+    std::filesystem::path file; // for which they were last shown
 };
 
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings not to repeat each frame
     explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake) {}
-    // Of a scene that is closed.
+    // For a closed scene.
     void forget_document() {
         balls.forget();
         skies.stop();
@@ -124,7 +124,7 @@ struct PanelState {
         convergence.current = {};
         convergence.previous = {};
         history_seen = 0;
-        plugins.asked.clear(); // may refer to things of it
+        plugins.asked.clear(); // may refer to its things
     }
 
     ImageLoads loads;
@@ -141,7 +141,7 @@ struct PanelState {
     ImportState importing;
     std::size_t history_seen = 0;
     int history_mib = 0; // while it is typed
-    std::string texture_search; // in popups that ask for an image
+    std::string texture_search; // in popups for choosing an image
     std::pair<std::string, std::string> image_choice; // the mark that asked for an image file, and the file
 };
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Interfaces "restage.action/1" and "restage.panel/1": a plugin reads the scene and returns edits, and draws a panel.
  *
- * An action reads a snapshot of the scene through the reader that exporters have, and says what to change through an
- * edit writer. All of it is one step of undo, named by the action's label. The host validates it first; an action that
- * fails, or that the user stops, changes nothing. A panel shows parameters of its own with the widgets of an inspector,
- * and runs actions of its plugin with them. Neither holds document state: values are the host's. */
+ * An action reads a snapshot of the scene through the same reader as exporters, and records its changes with an edit
+ * writer. They become one undo step, named after the action's label. The host validates them first; an action that
+ * fails, or that the user cancels, changes nothing. A panel shows its parameters with the inspector's widgets and runs
+ * actions of the same plugin with them. Neither holds document state: the host owns the values. */
 #ifndef RESTAGE_ACTION_H
 #define RESTAGE_ACTION_H
 
@@ -20,21 +20,21 @@ extern "C" {
 #define RESTAGE_ACTION1 "restage.action/1"
 #define RESTAGE_PANEL1 "restage.panel/1"
 
-/* What is selected, in the order in which it was selected: the last object is the active one. */
+/* The selection, in the order in which the objects were selected: the last one is the active object. */
 typedef struct RestageSelection1 {
     RESTAGE_SIZE(RestageSelection1);
     uint32_t instance_count;
-    const RestageHandle* instances; /* none twice; NULL where there are none */
+    const RestageHandle* instances; /* no duplicates; NULL if there are none */
 } RestageSelection1;
 
 /* Where an action writes. Every function [worker], one thread at a time; data is copied before it returns. Handles of
- * the reader are valid here, and so are those of new things, at once. The reader goes on showing the scene as it was.
- * What returns 0 was refused, and the host has noted why: go on or give up. */
+ * the reader are valid here, and so, immediately, are those of new things. The reader keeps showing the scene as it
+ * was. 0 means that the host refused the change and recorded why: continue or return 0. */
 typedef struct RestageEditWriter1 {
     RESTAGE_SIZE(RestageEditWriter1);
     void* ctx;
 
-    /* New things, as importers push them. A name that is taken gets a number. */
+    /* New things, as importers push them. A name already in use gets a number. */
     RestageHandle (*add_mesh)(void* ctx, const RestageMesh*);
     RestageHandle (*add_image)(void* ctx, const RestageImage*);
     RestageHandle (*add_texture)(void* ctx, const RestageTexture*);
@@ -45,47 +45,49 @@ typedef struct RestageEditWriter1 {
     RestageHandle (*add_light)(void* ctx, const RestageLight*);
     RestageHandle (*add_camera)(void* ctx, const RestageCamera*);
 
-    /* Changes of what there is, or of what is new. Transforms are column-major, affine and invertible. */
+    /* Changes to existing or new things. Transforms are column-major, affine and invertible. */
     int (*set_transform)(void* ctx, RestageHandle instance, const double object_to_world[16]);
     int (*set_material)(void* ctx, RestageHandle instance, RestageHandle material);
-    int (*set_group)(void* ctx, RestageHandle instance, RestageHandle group); /* 0 = in none */
+    int (*set_group)(void* ctx, RestageHandle instance, RestageHandle group); /* 0 = no group */
     int (*set_hidden)(void* ctx, uint32_t kind, RestageHandle, int hidden); /* of an INSTANCE or a LIGHT */
     int (*set_name)(void* ctx, uint32_t kind, RestageHandle, const char* name);
-    /* Of a MATERIAL, held to its table: type, range, choices; or of a TEXTURE. */
+    /* Of a MATERIAL, checked against its table (type, range, choices), or of a TEXTURE. */
     int (*set_param)(void* ctx, uint32_t kind, RestageHandle, const RestageValue*);
-    int (*set_light)(void* ctx, RestageHandle, const RestageLight*); /* whole; its name and origin stay */
-    int (*set_camera)(void* ctx, RestageHandle, const RestageCamera*); /* whole; its name and origin stay */
+    int (*set_light)(void* ctx, RestageHandle, const RestageLight*); /* replaced as a whole; its name and origin stay */
+    int (*set_camera)(void* ctx, RestageHandle,
+                      const RestageCamera*); /* replaced as a whole; its name and origin stay */
     int (*set_active_camera)(void* ctx, RestageHandle camera);
     int (*set_environment)(void* ctx, const RestageEnvironment*); /* NULL = none */
-    /* Of one kind (RestageKind), all or none of them. Groups left empty go with their objects; what is still used, and
-     * what this run has made, cannot be removed. */
+    /* Of one kind (RestageKind), all or none of them. Groups that become empty are removed too; things still in use,
+     * and things that this run has added, cannot be removed. */
     int (*remove)(void* ctx, uint32_t kind, const RestageHandle* handles, uint32_t count);
 
-    /* The object is selected afterwards. Where no call says so, the new objects are. */
+    /* The object is selected afterwards. Without any such call, the new objects are. */
     int (*select)(void* ctx, RestageHandle instance);
 
-    /* A line for the user about what was done (RESTAGE_KEPT), only nearly done, or left out (RestageFate). */
+    /* A line of the report: what was done (RESTAGE_KEPT), done approximately, or left out (RestageFate). */
     void (*report)(void* ctx, int fate, const char* what, const char* note);
-    /* Marks the run as failed: nothing will change. The first call is the one that is shown: what, and what to do. */
+    /* Marks the run as failed: nothing changes. Only the first call is shown: what is wrong, and what to do about it.
+     */
     void (*error)(void* ctx, const char* message);
-    /* 0..1; returns 0 when the user wants to stop: then return from run at once. */
+    /* 0..1; returns 0 if the user wants to stop: then return from run at once. */
     int (*progress)(void* ctx, float done, const char* what);
-    /* Is there a material plugin for `type`? Its table, or NULL. */
+    /* The table of the material plugin for `type`, or NULL if there is none. */
     const RestageParam* (*material_table)(void* ctx, const char* type, uint32_t* count);
 } RestageEditWriter1;
 
-enum { RESTAGE_ACTION_NEEDS_SELECTION = 1u }; /* at least one object: the host does not call run without */
+enum { RESTAGE_ACTION_NEEDS_SELECTION = 1u }; /* the host calls run only if at least one object is selected */
 
 typedef struct RestageAction1 {
     RESTAGE_SIZE(RestageAction1);
-    const char* id; /* lower_snake, unique over all plugins: what scripts call it */
-    const char* label; /* as in a menu, and the name of the step of undo: "Scatter" */
+    const char* id; /* lower_snake, unique over all plugins: its name in scripts */
+    const char* label; /* in the menu, and the name of the undo step: "Scatter" */
     const char* tooltip; /* one sentence */
-    const RestageParam* params; /* any type but TABLE, none texturable; NULL where there are none */
+    const RestageParam* params; /* any type except TABLE, none texturable; NULL if there are none */
     uint32_t param_count;
     uint32_t flags; /* RESTAGE_ACTION_* */
-    /* [worker] 1 = done, 0 = failed: error() has been called. `params`: every parameter, in the table's order. Same
-     * scene, selection and parameters: same edits. */
+    /* [worker] 1 = done, 0 = failed: error() has been called. `params`: every parameter, in the table's order. The
+     * same scene, selection and parameters give the same edits. */
     int (*run)(const RestageSceneReader1* scene, const RestageSelection1* selection, const RestageValue* params,
                uint32_t count, RestageEditWriter1* edits);
 } RestageAction1;
@@ -93,11 +95,12 @@ typedef struct RestageAction1 {
 typedef struct RestagePanel1 {
     RESTAGE_SIZE(RestagePanel1);
     const char* id; /* lower_snake, unique over all plugins */
-    const char* label; /* of its tab, and in the menu of panels */
-    const RestageParam* params; /* of its widgets; no document state: the host remembers them beside its layout */
+    const char* label; /* of its tab, and in the Panels menu */
+    const RestageParam*
+        params; /* of its widgets; not document state: the host saves the values with the window layout */
     uint32_t param_count;
-    /* [main] Each time the panel is drawn, as an inspector's (restage/inspector.h); only what it draws is shown. `ui`
-     * has run() and selected(). */
+    /* [main] Called each time the panel is drawn, as an inspector's `draw` is (restage/inspector.h); only what it draws
+     * is shown. `ui` has run() and selected(). */
     void (*draw)(const RestageUi1* ui, void* ctx);
 } RestagePanel1;
 

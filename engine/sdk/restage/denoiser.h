@@ -20,7 +20,7 @@ typedef enum RestageDenoiseQuality {
 typedef struct RestageDenoiseJob {
     RESTAGE_SIZE(RestageDenoiseJob);
     uint32_t width, height;
-    const float* color;  /* RGB, linear, 3 a pixel, row 0 on top */
+    const float* color;  /* RGB, linear, 3 per pixel, row 0 on top */
     const float* albedo; /* RGB in [0,1], or NULL */
     const float* normal; /* xyz in [-1,1], world space, or NULL */
     float* output;       /* RGB; may be `color` */

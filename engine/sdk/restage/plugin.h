@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The entry point of a Restage plugin. C11.
  *
- * A plugin is a bundle: a folder with a manifest (plugin.json), perhaps a shared library, perhaps GLSL. It may bring
- * several materials, an importer and an exporter, and anything else that has an interface. The manifest, which the
- * host reads before it opens the library, lists what it provides and needs. The library exports one symbol,
- * `restage_plugin`, of type RestagePlugin. Everything else is found by string id with a revision
+ * A plugin is a bundle: a folder with a manifest (plugin.json), and optionally a shared library and GLSL files. It may
+ * provide several materials, an importer and an exporter, and anything else that has an interface. The manifest, which
+ * the host reads before it opens the library, lists what it provides and needs. The library exports one symbol,
+ * `restage_plugin`, of type RestagePlugin. Everything else is looked up by a string id with a revision
  * ("restage.material/1"); NULL means absent.
  * Whoever allocates frees; pointers passed to a call are valid only during it, unless stated otherwise. No C++ type,
  * exception or allocation crosses the ABI. Every function states its thread: [main] [worker] [any].
@@ -85,8 +85,8 @@ typedef struct RestagePlugin {
  *                  {RESTAGE_MATERIAL1, &silk},
  *                  {RESTAGE_INSPECTOR1, &velvet_inspector})
  *
- * RESTAGE_PLUGIN_INIT takes the two functions as well; either may be NULL. Sugar: nothing that a plugin could not
- * write itself. */
+ * RESTAGE_PLUGIN_INIT takes the two functions as well; either may be NULL. A convenience: a plugin could write the same
+ * itself. */
 typedef struct RestageProvided { /* stays inside the plugin */
     const char* interface_id;
     const void* table;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++20 sugar for material tables: the lines of RestageParam as functions, checked at compile time. None of it
-// crosses the ABI; C plugins do without.
+// C++20 helpers for material tables: the lines of RestageParam as functions, checked at compile time. None of it
+// crosses the ABI; C plugins do not need it.
 #pragma once
 
 #include <restage/material.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scatter: copies of the selected objects over the surface that was selected last.
+// Scatter: copies the selected objects over the surface that was selected last.
 #include "source.hpp"
 #include "surface.hpp"
 
@@ -14,35 +14,33 @@ using namespace restage::sdk;
 using namespace scatter;
 
 constexpr std::size_t most_copies = 200000;
-constexpr std::size_t darts_a_copy = 32; // thrown at most, on average
+constexpr std::size_t darts_a_copy = 32; // darts per copy at most, on average
 
 constexpr RestageParam params[] = {
-    choice("amount", "Amount", "count|density", 0,
-           {.tooltip = "A number of copies, or so many for each unit of area."}),
-    integer("count", "Count", 1, int(most_copies), 100, {.tooltip = "Copies, where the amount is a count."}),
-    number("density", "Density", 0, 1e6f, 1,
-           {.tooltip = "Copies for each square unit, where the amount is a density."}),
-    integer("seed", "Seed", 0, 1000000, 1, {.tooltip = "Another number gives another arrangement."}),
+    choice("amount", "Amount", "count|density", 0, {.tooltip = "Either a number of copies or a number per unit area."}),
+    integer("count", "Count", 1, int(most_copies), 100, {.tooltip = "Number of copies if the amount is a count."}),
+    number("density", "Density", 0, 1e6f, 1, {.tooltip = "Copies per unit area if the amount is a density."}),
+    integer("seed", "Seed", 0, 1000000, 1, {.tooltip = "Each seed gives a different arrangement."}),
     number("distance", "Least distance", 0, 1e6f, 0,
-           {.tooltip = "Between the feet of two copies, in units of the scene; 0 = any."}),
-    number("scale_min", "Smallest", 0.001f, 1000, 0.8f, {.tooltip = "The scale of a copy, at least."}),
-    number("scale_max", "Largest", 0.001f, 1000, 1.2f, {.tooltip = "The scale of a copy, at most."}),
+           {.tooltip = "Minimum distance between two copies, in scene units; 0 = unlimited."}),
+    number("scale_min", "Smallest", 0.001f, 1000, 0.8f, {.tooltip = "Smallest scale of a copy."}),
+    number("scale_max", "Largest", 0.001f, 1000, 1.2f, {.tooltip = "Largest scale of a copy."}),
     number("rotation", "Rotation", 0, 180, 180,
-           {.tooltip = "Copies are turned about their upright axis by up to this angle, either way.", .unit = "deg"}),
-    number("tilt", "Tilt", 0, 90, 0, {.tooltip = "Copies lean by up to this angle, in any direction.", .unit = "deg"}),
-    choice("align", "Stand", "normal|up", 0, {.tooltip = "Along the normal of the surface, or upright."}),
+           {.tooltip = "Largest rotation of a copy about its upright axis, in either direction.", .unit = "deg"}),
+    number("tilt", "Tilt", 0, 90, 0, {.tooltip = "Largest tilt of a copy, in any direction.", .unit = "deg"}),
+    choice("align", "Stand", "normal|up", 0, {.tooltip = "Aligned with the surface normal, or upright."}),
     number("slope", "Steepest", 0, 180, 180,
-           {.tooltip = "Nothing stands where the surface is steeper than this.", .unit = "deg"}),
+           {.tooltip = "No copies where the surface is steeper than this.", .unit = "deg"}),
     number("offset", "Offset", -1e6f, 1e6f, 0,
-           {.tooltip = "Raises copies above the surface, or sinks them, in units of the scene."}),
-    choice("up", "Up", "auto|x|y|z", 0,
-           {.tooltip = "What is upright in this scene; auto: what is upright in the camera.", .advanced = true}),
-    choice("side", "Side", "front|back", 0,
-           {.tooltip = "The side of the surface: where its normals point, or the other.", .advanced = true}),
-    toggle("group", "In a group", true, {.tooltip = "All copies go into a new group.", .advanced = true}),
+           {.tooltip = "Offset of copies above (or below) the surface, in scene units."}),
+    choice("up", "Up", "auto|x|y|z", 0, {.tooltip = "The scene's up axis; auto: the camera's.", .advanced = true}),
+    choice(
+        "side", "Side", "front|back", 0,
+        {.tooltip = "The side of the surface: the one its normals point to, or the opposite one.", .advanced = true}),
+    toggle("group", "In a group", true, {.tooltip = "Puts all copies into a new group.", .advanced = true}),
 };
 
-// The parameters by id; the host gives all of them.
+// The parameters by id; the host passes all of them.
 class Options {
   public:
     Options(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
@@ -80,9 +78,9 @@ Vec up_of(const RestageSceneReader1& scene, const Options& o) {
     return y_size >= x_size ? Vec{0, y.y < 0 ? -1.0 : 1.0, 0} : Vec{y.x < 0 ? -1.0 : 1.0, 0, 0};
 }
 
-// From the source to where a copy of it stands.
+// From the source to the place of a copy.
 Affine placement(const Source& source, const Spot& spot, Vec up, const Options& o, Random& random) {
-    // Drawn in one order, whatever the parameters are.
+    // Drawn in a fixed order, independent of the parameters.
     const double scale_at = random.uniform(), spin_at = random.uniform(), lean_at = random.uniform(),
                  lean_to = random.uniform();
     const double low = o.number("scale_min"), high = std::max(low, o.number("scale_max"));
@@ -109,17 +107,17 @@ bool add_copy(const RestageEditWriter1& edits, const Source& source, const Affin
     }
     for (RestageInstance object : source.objects) {
         (move * Affine::from(object.object_to_world)).to(object.object_to_world);
-        if (source.group || group) object.group = group; // else it stays with what it is a copy of
+        if (source.group || group) object.group = group; // else it is in the group of its original
         if (!edits.add_instance(edits.ctx, &object)) return false;
     }
     return true;
 }
 
-// What the triangles stand for where they are not what is rendered; "" = they are.
+// What is rendered instead of the triangles; "" = the triangles are rendered.
 std::string stand_in(const RestageMesh& mesh) {
     const std::string shape(mesh.primitive, std::strcspn(mesh.primitive, " "));
     for (const char* other : {"sphere", "disk", "cylinder", "curve", "missing"})
-        if (shape == other) return shape == "missing" ? "shape that is missing" : shape;
+        if (shape == other) return shape == "missing" ? "missing shape" : shape;
     return "";
 }
 
@@ -131,7 +129,7 @@ int refuse(const RestageEditWriter1& edits, const std::string& why) {
 int run_unguarded(const RestageSceneReader1& scene, const RestageSelection1& selection, const Options& o,
                   const RestageEditWriter1& edits) {
     if (selection.instance_count < 2)
-        return refuse(edits, "select what to scatter first, and then the surface: two objects at least");
+        return refuse(edits, "select at least two objects: what to scatter first, and the surface last");
     std::vector<RestageHandle> selected(selection.instances, selection.instances + selection.instance_count);
     RestageInstance ground{};
     RestageMesh mesh{};
@@ -141,7 +139,7 @@ int run_unguarded(const RestageSceneReader1& scene, const RestageSelection1& sel
     if (!there || !scene.mesh(scene.ctx, ground.mesh, &mesh) || mesh.triangle_count == 0)
         return refuse(edits, who + "has no triangles: select another object last");
     if (const std::string shape = stand_in(mesh); !shape.empty())
-        return refuse(edits, who + "is a " + shape + ", for which its triangles only stand in: select a mesh last");
+        return refuse(edits, who + "is a " + shape + ", which is not rendered from its triangles: select a mesh last");
     const Vec up = up_of(scene, o);
     const Surface surface(mesh, ground,
                           {.back = o.is("side", "back"),
@@ -149,11 +147,12 @@ int run_unguarded(const RestageSceneReader1& scene, const RestageSelection1& sel
                            .least_cos = o.number("slope") >= 180 ? -2 : sin_cos(radians(o.number("slope"))).second});
     if (!(surface.whole_area() > 0)) return refuse(edits, who + "has no area: select another object last");
     if (!(surface.area() > 0))
-        return refuse(edits, who +
-                                 "is steeper everywhere than \"Steepest\" allows, or faces the other way: raise it, or "
-                                 "change \"Side\"");
+        return refuse(edits,
+                      who +
+                          "is steeper everywhere than \"Steepest\" allows, or faces the other way: increase it, or "
+                          "change \"Side\"");
     const std::vector<Source> sources = sources_of(scene, selected, up);
-    if (sources.empty()) return refuse(edits, "nothing that is to be scattered has geometry: select other objects");
+    if (sources.empty()) return refuse(edits, "none of the objects to scatter has geometry: select other objects");
 
     const double wanted =
         o.is("amount", "density") ? std::floor(o.number("density") * surface.area() + 0.5) : double(o.integer("count"));
@@ -167,7 +166,7 @@ int run_unguarded(const RestageSceneReader1& scene, const RestageSelection1& sel
         RestageGroup made{};
         made.name = name.c_str();
         group = edits.add_group(edits.ctx, &made);
-        if (!group) return refuse(edits, "the group of the copies could not be made");
+        if (!group) return refuse(edits, "the group for the copies could not be created");
     }
     const double distance = o.number("distance");
     Disks disks(distance);
@@ -189,7 +188,7 @@ int run_unguarded(const RestageSceneReader1& scene, const RestageSelection1& sel
     }
     const std::string what = std::to_string(copies) + " copies on \"" + ground.name + "\"";
     const bool full = copies < count;
-    const std::string note = full ? "of " + std::to_string(count) + ": no more fit with the least distance" : "";
+    const std::string note = full ? "of " + std::to_string(count) + ": no more fit at the minimum distance" : "";
     edits.report(edits.ctx, full ? RESTAGE_APPROXIMATED : RESTAGE_KEPT, what.c_str(), note.c_str());
     return 1;
 }
@@ -208,7 +207,7 @@ constexpr RestageAction1 action{
     .size = sizeof(RestageAction1),
     .id = "scatter",
     .label = "Scatter",
-    .tooltip = "Copies of the selected objects over the surface that was selected last.",
+    .tooltip = "Copies the selected objects over the surface that was selected last.",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
     .flags = RESTAGE_ACTION_NEEDS_SELECTION,
@@ -233,7 +232,7 @@ void draw(const RestageUi1* ui, void* ctx) {
     const std::uint32_t selected = ui->selected(ctx);
     if (selected < 2)
         ui->text(ctx, "Select what to scatter first, and then the surface.");
-    else if (ui->button(ctx, "Scatter", "Copies go over the object that was selected last."))
+    else if (ui->button(ctx, "Scatter", "The object that was selected last is the surface."))
         ui->run(ctx, "scatter");
 }
 

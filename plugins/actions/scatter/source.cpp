@@ -17,7 +17,7 @@ T sized() {
     return item;
 }
 
-// The groups an object is in, the innermost first.
+// The groups that contain an object, innermost first.
 std::vector<RestageHandle> groups_of(const RestageSceneReader1& scene, RestageHandle group) {
     std::vector<RestageHandle> all;
     auto item = sized<RestageGroup>();
@@ -28,7 +28,7 @@ std::vector<RestageHandle> groups_of(const RestageSceneReader1& scene, RestageHa
     return all;
 }
 
-// Bounds along three axes, of which `up` is the first.
+// Bounds along three axes; `up` is the first.
 struct Box {
     Vec axes[3];
     double low[3], high[3];
@@ -57,7 +57,7 @@ struct Box {
 } // namespace
 
 std::vector<Source> sources_of(const RestageSceneReader1& scene, const std::vector<RestageHandle>& selected, Vec up) {
-    // Groups with an object that is not selected stay out of it.
+    // Groups that contain an unselected object are not used.
     const std::set<RestageHandle> chosen(selected.begin(), selected.end());
     std::set<RestageHandle> split;
     auto object = sized<RestageInstance>();

@@ -28,7 +28,7 @@ Surface::Surface(const RestageMesh& mesh, const RestageInstance& instance, const
         const double twice = length(normal);
         if (!(twice > 0) || !std::isfinite(twice)) continue; // degenerate
         normal = normal * (side / twice);
-        if (mesh.normals) { // they say where outside is
+        if (mesh.normals) { // they define the outside
             const Vec shading = vertex(mesh.normals, i[0]) + vertex(mesh.normals, i[1]) + vertex(mesh.normals, i[2]);
             if (dot(local, shading) < 0) normal = normal * -1;
         }

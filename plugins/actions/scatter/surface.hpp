@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface that is scattered on: points of it, uniform by its area in world space.
+// The surface to scatter on: points on it, uniform by area in world space.
 #pragma once
 
 #include "vec.hpp"
@@ -11,7 +11,7 @@
 namespace scatter {
 
 struct Spot {
-    Vec at, normal; // unit, of the triangle, on the side asked for
+    Vec at, normal; // unit, of the triangle, on the chosen side
 };
 
 struct SurfaceOptions {
@@ -24,7 +24,7 @@ class Surface {
   public:
     Surface(const RestageMesh& mesh, const RestageInstance& instance, const SurfaceOptions& options);
 
-    double area() const { return areas_.empty() ? 0 : areas_.back(); } // of what may be scattered on
+    double area() const { return areas_.empty() ? 0 : areas_.back(); } // of the triangles that are not left out
     double whole_area() const { return whole_area_; }
     Spot sample(double u, double v, double w) const; // of [0, 1) each; area() > 0
 
@@ -33,16 +33,17 @@ class Surface {
         Vec corner, edge1, edge2, normal;
     };
     std::vector<Triangle> triangles_; // of positive area
-    std::vector<double> areas_;       // up to and with each triangle
+    std::vector<double> areas_;       // cumulative area, including each triangle
     double whole_area_ = 0;
 };
 
 // Poisson disks by dart throwing (R. Cook, "Stochastic Sampling in Computer Graphics", 1986): a point that is nearer
-// than `distance` to an earlier one is thrown away. Points lie in a grid of that width, so each dart looks at 27 cells.
+// than `distance` to an earlier one is rejected. Points are kept in a grid of that cell width, so each dart checks 27
+// cells.
 class Disks {
   public:
     explicit Disks(double distance) : distance_(distance) {}
-    bool add(Vec point); // false: it is too near
+    bool add(Vec point); // false: too near
 
   private:
     struct Cell {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vectors, affine matrices and random numbers in double precision. Only +, -, *, / and sqrt, which IEEE 754 rounds
-// alike everywhere, so that a seed gives the same copies on every machine; hence sin and cos of its own.
+// identically everywhere, so that a seed gives the same copies on every machine; hence its own sin and cos.
 #pragma once
 
 #include <cmath>
@@ -44,8 +44,8 @@ struct Affine { // columns
     double determinant() const { return dot(cross(x, y), z); }
 };
 
-// Of an angle in [-2 pi, 2 pi]: quarter turns are taken off, then the Taylor series up to the 17th order, whose
-// remainder at pi/4 is below 2^-52.
+// For angles in [-2 pi, 2 pi]: reduction by quarter turns, then the Taylor series to 17th order, whose remainder at
+// pi/4 is below 2^-52.
 inline std::pair<double, double> sin_cos(double angle) {
     const double turns = std::floor(angle * (2 / std::numbers::pi) + 0.5);
     const double a = angle - turns * (std::numbers::pi / 2), a2 = a * a;
@@ -73,7 +73,7 @@ inline Affine rotation(Vec axis, double sine, double cosine) {
     return {turn({1, 0, 0}), turn({0, 1, 0}), turn({0, 0, 1}), {}};
 }
 
-// The smallest rotation that takes one unit vector to another.
+// The smallest rotation from one unit vector to another.
 inline Affine rotation(Vec from, Vec to) {
     const Vec axis = cross(from, to);
     const double sine = length(axis), cosine = dot(from, to);
@@ -85,7 +85,8 @@ inline Affine rotation(Vec from, Vec to) {
 // Number Generation", 2014.
 class Random {
   public:
-    // Streams of one seed are independent: one a copy, so that a parameter that is drawn late shifts no other.
+    // Streams of one seed are independent. There is one per copy, so that drawing another parameter shifts no other
+    // copy.
     Random(std::uint64_t seed, std::uint64_t stream) : increment_(stream << 1 | 1) {
         next();
         state_ += seed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where libOpenImageDenoise is looked for (README.md), and how it is opened.
+// Searches for libOpenImageDenoise (README.md) and opens it.
 
 #include "library.hpp"
 
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* names[] = {"OpenImageDenoise.dll"};
 
 void* open(const fs::path& path, std::string& why) {
-    const DWORD flags = path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0; // its parts are beside it
+    const DWORD flags = path.is_absolute() ? LOAD_WITH_ALTERED_SEARCH_PATH : 0; // its parts are in the same folder
     HMODULE handle = LoadLibraryExW(path.c_str(), nullptr, flags);
     if (!handle) why = std::system_category().message(static_cast<int>(GetLastError()));
     return handle;

@@ -41,7 +41,7 @@ struct Api {
 };
 
 // Opens the library, which then stays in memory until the process ends: its threads would not survive unloading.
-// False = missing or unusable, and `reason` is a sentence.
+// False = missing or unusable; then `reason` is a sentence.
 bool load(Api& api, std::string& reason);
 
 } // namespace oidn

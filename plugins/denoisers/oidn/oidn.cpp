@@ -71,7 +71,7 @@ bool ensure_library(State& s) {
     return s.api.has_value();
 }
 
-// One of the filters of a job, with its part of the progress.
+// One of the filters of a job, with its part of the total progress.
 struct Pass {
     const RestageDenoiseJob& job;
     double start, end;
@@ -162,7 +162,7 @@ std::string denoise_padded(State& s, const RestageDenoiseJob& job) {
 }
 
 std::string denoise(State& s, const RestageDenoiseJob& job) {
-    if (job.size < sizeof(RestageDenoiseJob)) return "the job is of an older program than this plugin";
+    if (job.size < sizeof(RestageDenoiseJob)) return "the job is from a program older than this plugin";
     if (!job.color || !job.output || job.width == 0 || job.height == 0) return "the job has no picture";
     if (job.width < least_side || job.height < least_side) return denoise_padded(s, job);
     if (!ensure_library(s)) return s.unavailable_reason;

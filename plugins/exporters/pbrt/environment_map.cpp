@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts a picture of all directions to the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
+// Converts an environment image to the other mapping: equirectangular for pbrt-v3, equal-area octahedral for v4.
 // P. Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008, as in pbrt-v4.
 #include "exporter.hpp"
 
@@ -83,7 +83,7 @@ class Picture {
 } // namespace
 
 OwnPicture resampled(const RestageImage& image, bool to_octahedral, std::uint32_t least_side) {
-    // About as many pixels as before; four samples a side of each, so that narrow lights keep their energy.
+    // About as many pixels as before, with 4 x 4 samples each, so that narrow lights keep their energy.
     const auto side =
         std::max(least_side, static_cast<std::uint32_t>(std::lround(std::sqrt(double(image.width) * image.height))));
     OwnPicture out;

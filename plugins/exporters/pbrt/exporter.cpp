@@ -51,7 +51,7 @@ Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
     Kept out;
     const bool ours = std::string_view(origin.format) == format();
     const bool of_pbrt = std::string_view(origin.format).starts_with("pbrt-"); // the other version
-    for (std::uint32_t i = 0; i < origin.value_count; ++i) { // if it is understood; else the value is written
+    for (std::uint32_t i = 0; i < origin.value_count; ++i) { // if it can be parsed; else the value is written
         const RestageOriginValue& value = RESTAGE_AT(RestageOriginValue, origin.values, i);
         const std::string_view id = value.id;
         if (id == whole_light) continue; // picture_light's
@@ -61,7 +61,7 @@ Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
             out.for_values[std::string(id)] = value.text;
         else
             approximated(what, std::string("what ") + origin.format +
-                                   " gave as spectra, or in its own form, is written as this scene shows it");
+                                   " gave as spectra, or in its own form, is written as in this scene");
     }
     for (const std::string& line : lines(origin.verbatim)) {
         if (ours) {
@@ -96,12 +96,12 @@ bool Exporter::put_exact(Params& params, const Kept& k, const char* id, const fl
         return true;
     }
     approximated(what, same ? "its light was given in another colour space; its colour in sRGB is written"
-                            : "its light was given by a spectrum or a picture; its present colour is written");
+                            : "its light was given by a spectrum or a picture; its current colour is written");
     return false;
 }
 
 void Exporter::tell_missing(const std::string& what, const std::string& file) {
-    if (told_missing_.insert(file).second) dropped(what, "its file is missing, it is named as before: " + file);
+    if (told_missing_.insert(file).second) dropped(what, "its file is missing; its name is written unchanged: " + file);
 }
 
 std::string Exporter::finished(Params& params, const std::string& what) {

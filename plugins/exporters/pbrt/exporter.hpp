@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One export: the host's reader, the options, and what has been written so far. Each kind of thing has a file of its
-// own (write_*.cpp). Same scene, same bytes: nothing here depends on addresses, time or the order of hash tables.
+// One export: the host's reader, the options, and the output so far. Each kind of thing has its own file
+// (write_*.cpp). Same scene, same bytes: nothing here depends on addresses, time or the order of hash tables.
 #pragma once
 
 #include "output.hpp"
@@ -21,7 +21,7 @@ enum class Files { copy, relative, absolute };
 struct Options {
     Version version = Version::v4;
     Files textures = Files::copy;
-    bool write_meshes = true; // false: refer to the PLY a mesh came from, if it still exists
+    bool write_meshes = true; // false: refer to a mesh's original PLY, if it still exists
 };
 
 // The values of a material or texture, by id, with defaults from the plugins' tables for unset ones.
@@ -41,13 +41,13 @@ class Values {
     std::uint32_t count_;
 };
 
-// The id of the line that keeps all of a light with a picture: its value, then the directive.
+// The id of the line that keeps a whole light with a picture: its value, then the directive.
 inline constexpr std::string_view whole_light = "whole";
 
-// What was kept of an imported thing, sorted. Lines of another version are unusable.
+// The kept lines of an imported thing, sorted. Lines of another version are unusable.
 struct Kept {
     std::vector<std::string> lines;                // written back as they are
-    std::map<std::string, std::string> for_values; // replaces what would be written for that value
+    std::map<std::string, std::string> for_values; // replaces that value
     std::vector<std::string> whole;                // replaces everything
     std::vector<std::string> foreign;              // of another format: comments
 };
@@ -80,7 +80,7 @@ class Exporter {
     Kept kept(const RestageOrigin& text, const std::string& what);
     void comment(const std::vector<std::string>& lines, const char* indent = "");
     std::string unique_name(const char* kind, const std::string& name);
-    // The name of an unedited thing that a missing Include may define: it is named, not written. "" = any other.
+    // The name of an unedited thing that a missing Include may define: it is referenced, not written. "" = any other.
     std::string extern_name(const char* kind, const Kept& kept);
     void flag(Params& params, const char* name, bool value) const; // v3 writes "true", v4 true
 
@@ -99,11 +99,11 @@ class Exporter {
 
     // write_textures.cpp
     std::string image_file(RestageHandle image);
-    std::string place_file(const std::string& path); // how the scene file names it; copied if requested
-    // Writes it and its dependencies first, as a scalar or a colour (default: as it is declared); its name, "" =
+    std::string place_file(const std::string& path); // its name in the scene file; copied if requested
+    // Writes it and its dependencies first, as a scalar or a colour (default: as declared); its name, "" =
     // impossible.
     std::string texture(RestageHandle, std::optional<bool> as_float = {});
-    // The Transform of a texture in space, the imported one if the values still say the same; "" = none.
+    // The Transform of a texture in space, the imported one if the values still agree with it; "" = none.
     std::string placing(const Values&, const std::string& imported, const std::string& what);
     void put_argument(Params&, const Values&, const char* id, const char* name, bool is_float, float otherwise);
     void put_image_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
@@ -160,7 +160,7 @@ class Exporter {
 
     // What pbrt cannot express, in comments that the importer reads (see its build_names.cpp).
     void mark(const char* indent, const char* key, const std::vector<std::string>& strings);
-    void only_for_us(std::size_t start); // turns what was written since `start` into lines `#restage ...`
+    void only_for_us(std::size_t start); // turns the text written since `start` into lines `#restage ...`
 
     const RestageSceneReader1& in_;
     const Options options_;
@@ -171,7 +171,7 @@ class Exporter {
     std::map<std::string, std::set<std::string>> names_; // by kind
     std::map<std::string, std::string> files_; // by path
     std::map<RestageHandle, std::string> materials_, media_, meshes_, images_;
-    std::map<std::pair<RestageHandle, bool>, std::string> textures_; // by kind: is it a scalar?
+    std::map<std::pair<RestageHandle, bool>, std::string> textures_; // by kind: whether it is a scalar
     std::set<std::pair<RestageHandle, bool>> writing_; // begun
     std::map<RestageHandle, unsigned> mesh_uses_; // Shape lines that will name it
     std::map<RestageHandle, std::string> group_names_;

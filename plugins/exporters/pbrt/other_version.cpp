@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was kept of a file of one version of pbrt, in the other's syntax. https://pbrt.org/fileformat-v3 and -v4.
+// Converts kept lines of one version of pbrt to the other's syntax. https://pbrt.org/fileformat-v3 and -v4.
 #include "exporter.hpp"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ std::optional<std::string> in_other_words(const std::string& text, bool to_v3) {
     if (line.word == "Camera" && line.name == "realistic") {
         Params given;
         given.add_raw(line.rest);
-        for (const char* own : {"simpleweighting", "aperture"}) // the picture is a stand-in's anyway
+        for (const char* own : {"simpleweighting", "aperture"}) // the picture is a placeholder anyway
             given.remove(own);
         return "Camera \"realistic\" " + given.text();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of one export: each is written under a temporary name beside its place; all are renamed at the end, the
+// The files of one export: each is written under a temporary name in the same folder; all are renamed at the end, the
 // scene file last. On failure the old export is unchanged.
 #pragma once
 
@@ -25,7 +25,7 @@ class Output {
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
-    bool has(const std::string& relative) const; // will be, or is, beside the scene
+    bool has(const std::string& relative) const; // exists, or will exist, next to the scene
     const std::filesystem::path& folder() const { return folder_; }
     // "models/chair.ply": a name unique in this export, relative to the folder.
     std::string unique_file(const std::string& folder, const std::string& stem, const std::string& extension);
@@ -43,7 +43,7 @@ class Output {
     std::filesystem::path scene_file_, folder_;
     std::vector<Staged> staged_;
     std::vector<std::filesystem::path> made_folders_;
-    std::set<std::string> taken_; // in lower case: file systems may not tell them apart
+    std::set<std::string> taken_; // in lower case: file systems may ignore case
 };
 
 } // namespace restage::pbrt_out

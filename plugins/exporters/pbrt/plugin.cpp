@@ -7,11 +7,11 @@ namespace restage::pbrt_out {
 namespace {
 
 const RestageParam options[] = {
-    RESTAGE_ENUM_PARAM("version", "pbrt version", "v4|v3", 0, 0, "Which pbrt the file is for."),
+    RESTAGE_ENUM_PARAM("version", "pbrt version", "v4|v3", 0, 0, "pbrt version of the file."),
     RESTAGE_ENUM_PARAM("textures", "Textures", "copy|relative|absolute", 0, 0,
-                       "Copy image files beside the scene, or refer to them in place."),
+                       "Copy image files next to the scene, or refer to them in place."),
     RESTAGE_ENUM_PARAM("meshes", "Meshes", "write|reference", 0, 0,
-                       "Write heavy meshes beside the scene, or refer to the PLY files they came from."),
+                       "Write heavy meshes next to the scene, or refer to their original PLY files."),
 };
 
 Options read_options(const RestageValue* values, std::uint32_t count) {
@@ -29,7 +29,7 @@ int save(const char* path, const RestageSceneReader1* in, const RestageValue* va
         const std::filesystem::path target(path);
         Output output(target);
         if (!Exporter(*in, read_options(values, count), output).run(target.filename().string())) return 0; // stopped
-        if (!in->progress(in->ctx, 1, "done")) return 0; // the last that can stop it: nothing is in its place yet
+        if (!in->progress(in->ctx, 1, "done")) return 0; // last chance to cancel: nothing has been renamed yet
         output.commit();
         return 1;
     } catch (const ExportError& e) {

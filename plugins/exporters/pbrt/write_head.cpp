@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes before WorldBegin: options, camera, film, pixel filter, sampler, integrator.
+// Everything before WorldBegin: options, camera, film, pixel filter, sampler, integrator.
 // https://pbrt.org/fileformat-v4, https://pbrt.org/fileformat-v3.
 #include "exporter.hpp"
 
@@ -179,7 +179,7 @@ void Exporter::sampler_and_integrator(const Kept& k) {
         const auto kept_number = [&](const char* name) {
             return sampler.has(name) ? std::strtoul(sampler.value(name).c_str(), nullptr, 10) : 4ul;
         };
-        if (kept_number("xsamples") * kept_number("ysamples") != samples) { // edited: as near to a square as possible
+        if (kept_number("xsamples") * kept_number("ysamples") != samples) { // edited: as close to a square as possible
             auto x = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
             while (samples % x != 0)
                 --x;

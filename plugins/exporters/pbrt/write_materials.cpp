@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: what both versions share. Each becomes a named material; those that a mix refers to come before it.
+// Materials: the common part of both versions. Each becomes a named material; components of a mix precede it.
 #include "exporter.hpp"
 
 #include <algorithm>
@@ -124,7 +124,7 @@ std::string Exporter::material(RestageHandle handle) {
     Params params;
     const bool outside = std::exchange(lossy_, false);
     bool stands_in = false; // pbrt has only an approximation
-    if (!k.whole.empty()) { // a material of pbrt's that is only approximated here, and was not edited
+    if (!k.whole.empty()) { // a pbrt material that is only approximated here, and was not edited
         for (const std::string& line : k.whole)
             params.add_raw(line);
     } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Material plugins as pbrt-v3's materials (https://pbrt.org/fileformat-v3, "Materials"). What v3 does not have becomes
-// the nearest it has, and a line in the report.
+// Material plugins as pbrt-v3's materials (https://pbrt.org/fileformat-v3, "Materials"). Those that v3 lacks are
+// replaced by the nearest equivalent, with a line in the report.
 #include "exporter.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
     const auto rough = [&](const char* u, const char* w, bool zero_is_smooth, float otherwise = 0) {
         put_roughness(p, v, what, u, w, "uroughness", "vroughness", zero_is_smooth, otherwise);
     };
-    if (v.boolean("multiscatter", false)) unlike("pbrt knows single scattering between microfacets only");
+    if (v.boolean("multiscatter", false)) unlike("pbrt has single scattering between microfacets only");
     if (type == "diffuse") {
         color("reflectance", "Kd", 0.5f);
         put_float(p, v, "sigma", "sigma", 0);
@@ -104,7 +104,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
         return "translucent";
     }
     if (type == "diffusetransmission") { // exactly translucent's diffuse part
-        lossy_ = true; // another material here, though the same picture
+        lossy_ = true; // a different material here, but the same picture
         color("reflectance", "reflect", 0.25f);
         color("transmittance", "transmit", 0.25f);
         p.add_rgb("Kd", {1, 1, 1}).add_rgb("Ks", {0, 0, 0});
@@ -125,7 +125,7 @@ std::string Exporter::material_v3(Params& p, const RestageMaterialDesc& m, const
     }
     if (type == "interface") return "none";
     if (type == "principled") {
-        unlike("pbrt-v3's disney material is written, which has the same parameters but other formulas");
+        unlike("pbrt-v3's disney material is written, which has the same parameters but different formulas");
         color("base_color", "color", 0.8f);
         put_float(p, v, "metallic", "metallic", 0);
         put_float(p, v, "roughness", "roughness", 0.5f); // both square it

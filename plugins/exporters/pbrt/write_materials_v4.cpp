@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Material plugins as pbrt-v4's materials (https://pbrt.org/fileformat-v4, "Materials"). What v4 does not have becomes
-// the nearest it has, and a line in the report.
+// Material plugins as pbrt-v4's materials (https://pbrt.org/fileformat-v4, "Materials"). Those that v4 lacks are
+// replaced by the nearest equivalent, with a line in the report.
 #include "exporter.hpp"
 
 namespace restage::pbrt_out {
@@ -27,7 +27,7 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
         p.add_int("maxdepth", static_cast<long long>(v.number("max_depth", 10)));
         p.add_int("nsamples", static_cast<long long>(v.number("n_samples", 1)));
     };
-    if (v.boolean("multiscatter", false)) unlike("pbrt knows single scattering between microfacets only");
+    if (v.boolean("multiscatter", false)) unlike("pbrt has single scattering between microfacets only");
     if (type == "diffuse") {
         put_color(p, v, "reflectance", "reflectance", {0.5f, 0.5f, 0.5f});
         if (v.ref("sigma") || v.number("sigma", 0) != 0)
@@ -37,14 +37,14 @@ std::string Exporter::material_v4(Params& p, const RestageMaterialDesc& m, const
     if (type == "conductor") {
         metal("eta", "k", "eta", "k");
         put_roughness(p, v, what, "uroughness", "vroughness", "uroughness", "vroughness", false);
-        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 knows GGX microfacets only");
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 has GGX microfacets only");
         return "conductor";
     }
     if (type == "dielectric") {
         put_float(p, v, "eta", "eta", 1.5f);
         if (!white("reflectance") || !white("transmittance"))
-            unlike("pbrt-v4's glass has no colour of its own; clear glass is written");
-        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 knows GGX microfacets only");
+            unlike("pbrt-v4's glass has no colour; clear glass is written");
+        if (v.choice("distribution", "ggx") != "ggx") unlike("pbrt-v4 has GGX microfacets only");
         if (v.boolean("thin", false)) return "thindielectric";
         put_roughness(p, v, what, "uroughness", "vroughness", "uroughness", "vroughness", true);
         return "dielectric";

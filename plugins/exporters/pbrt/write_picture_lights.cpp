@@ -59,7 +59,7 @@ RestageHandle Exporter::picture_named(const std::string& file) {
     for (RestageHandle h = 1; h <= in_.count(in_.ctx, RESTAGE_KIND_IMAGE); ++h) {
         RestageImage image{};
         if (!in_.image(in_.ctx, h, &image)) continue;
-        Params as_written; // what the importer kept of a missing file
+        Params as_written; // the importer's stand-in for a missing file
         for (const std::string& line : lines(image.origin->verbatim))
             as_written.add_raw(line);
         if (image.path == file || as_written.string("filename") == file) return h;
@@ -148,7 +148,7 @@ void Exporter::goniometric(PictureLight& p, std::string& type, Params& params) {
 }
 
 void Exporter::projection(PictureLight& p, Params& params) {
-    std::array<float, 3> tint{1, 1, 1}; // that the picture itself must contain
+    std::array<float, 3> tint{1, 1, 1}; // which the picture itself must contain
     if (!p.as_given) {
         for (const char* name : {"I", "scale", "power"})
             params.remove(name);

@@ -26,7 +26,7 @@ std::string signature(const RestageInstance& i) {
 
 bool shareable(const RestageInstance& i) { return !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_HIDDEN)); }
 
-std::string mesh_name_of(const std::string& file) { // as the importer takes it
+std::string mesh_name_of(const std::string& file) { // as in the importer
     std::string stem = std::filesystem::path(file).stem().string();
     if (stem.ends_with(".ply")) stem.resize(stem.size() - 4);
     return stem;
@@ -61,7 +61,7 @@ void Exporter::plan_objects() {
             members_[i.group].push_back(h);
             if (!shareable(i)) unfit.insert(i.group);
         }
-    // pbrt's objects are one level deep: a group of groups is written as comments alone.
+    // pbrt's objects are one level deep: a group of groups is written only as comments.
     for (RestageHandle g = 1; g <= groups; ++g)
         if (RestageGroup group{}; in_.group(in_.ctx, g, &group)) {
             group_names_[g] = unique_name("group", group.name);
@@ -73,7 +73,7 @@ void Exporter::plan_objects() {
         std::string name;
         std::vector<std::array<double, 16>> relative;
     };
-    std::map<std::string, std::vector<Made>> made; // by what is in them
+    std::map<std::string, std::vector<Made>> made; // by contents
     for (const auto& [group, handles] : members_) {
         if (unfit.count(group)) continue;
         std::string key;
@@ -103,7 +103,7 @@ void Exporter::plan_objects() {
         object_of_[group] = name;
     }
 
-    // Single instances that differ in their transform only.
+    // Single instances that differ only in their transform.
     std::map<std::string, std::vector<RestageHandle>> alone;
     for (RestageHandle h = 1; h <= instances; ++h)
         if (in_.instance(in_.ctx, h, &i) && shareable(i) && !object_of_.count(i.group))
@@ -123,7 +123,7 @@ void Exporter::plan_objects() {
     }
 }
 
-// Outermost first; a cycle ends where it closes.
+// Outermost first; stops at a cycle.
 std::vector<std::string> Exporter::group_path(RestageHandle group) {
     std::vector<std::string> path;
     for (RestageGroup g{}; group && in_.group(in_.ctx, group, &g) && path.size() < 100; group = g.parent) {
@@ -162,7 +162,7 @@ void Exporter::shapes() {
         if (h % 64 == 0 &&
             !in_.progress(in_.ctx, 0.3f + 0.6f * static_cast<float>(h) / static_cast<float>(instances), "shapes"))
             return;
-        if (i.flags & RESTAGE_INSTANCE_HIDDEN) { // pbrt would show it
+        if (i.flags & RESTAGE_INSTANCE_HIDDEN) { // it would be visible in pbrt
             text_ += "\n";
             const std::size_t start = text_.size();
             write_instance(h, "", nullptr);
@@ -238,7 +238,7 @@ void Exporter::write_instance(RestageHandle handle, const char* indent, const do
     if (many) mark(indent, "name", {i.name});
     RestageMesh mesh{};
     in_.mesh(in_.ctx, i.mesh, &mesh);
-    // v3 scopes names to attribute blocks: what a missing file defines must outlive its block.
+    // v3 scopes names to attribute blocks, but names defined by a missing file must be visible outside of its block.
     const bool open = v3() && std::string_view(mesh.primitive).starts_with("missing Include") &&
                       !(i.flags & (RESTAGE_INSTANCE_EMITS | RESTAGE_INSTANCE_REVERSE_ORIENTATION)) &&
                       !i.has_medium_interface && !relative_to;
@@ -288,7 +288,7 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     const bool is_ply = ending.ends_with(".ply") || ending.ends_with(".ply.gz");
     if (is_ply && std::filesystem::exists(source, code)) {
         if (const std::string inside = out_.inside(source); !inside.empty())
-            return file = inside; // beside the scene already
+            return file = inside; // already next to the scene
         if (!options_.write_meshes) {
             file =
                 options_.textures == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
@@ -300,8 +300,8 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
     return file;
 }
 
-// The two versions mean different things by alpha: v3's is a mask, for triangles only, and hides parts of lamps; v4's
-// is the share of rays stopped, and dims lamps, unless it is 0 everywhere.
+// Alpha differs between the versions: v3's is a mask, for triangles only, and makes parts of lamps invisible; v4's
+// is the fraction of rays stopped, and dims lamps, unless it is 0 everywhere.
 void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
     if (!i.alpha_texture && i.alpha >= 1) return;
     const std::string what = std::string("alpha of \"") + i.name + "\"";
@@ -314,17 +314,17 @@ void Exporter::report_alpha(const RestageInstance& i, const std::string& type) {
             return;
         }
         if (!mask && (i.alpha_texture || i.alpha > 0)) approximated(what, "in pbrt-v3 any alpha above 0 is opaque");
-        if (lamp && !unseen) approximated(what, "pbrt-v3's lamps shine where alpha makes holes, too");
+        if (lamp && !unseen) approximated(what, "pbrt-v3's lamps also emit where alpha makes holes");
         return;
     }
     if (mask && i.alpha_texture)
-        approximated(what, "a mask becomes a share: pbrt-v4 lets rays pass where alpha is between 0 and 1");
+        approximated(what, "a mask becomes a fraction: pbrt-v4 lets rays pass where alpha is between 0 and 1");
     RestageTexture t{};
     const bool zero = i.alpha_texture ? in_.texture(in_.ctx, i.alpha_texture, &t) &&
                                             std::string_view(t.type) == "constant" && average(i.alpha_texture)[0] <= 0
                                       : i.alpha <= 0;
     if (lamp && unseen && !zero && !(mask && whole))
-        approximated(what, "pbrt-v4's lamps do not shine where alpha makes holes");
+        approximated(what, "pbrt-v4's lamps do not emit where alpha makes holes");
     if (lamp && !unseen && !i.alpha_texture && i.alpha <= 0)
         approximated(what, "a lamp of alpha 0 emits in pbrt-v4, unseen");
 }
@@ -353,7 +353,7 @@ std::vector<std::string> Exporter::missing_lines(const RestageMesh& mesh, const 
     }
     if (out.empty()) dropped(what, std::string("its original cannot be written as ") + format());
     if (*mesh.source_file)
-        dropped(what, std::string("its file is missing, it is named as before: ") + mesh.source_file);
+        dropped(what, std::string("its file is missing; its name is written unchanged: ") + mesh.source_file);
     return out;
 }
 
@@ -376,7 +376,7 @@ std::vector<std::string> Exporter::shape_lines(RestageHandle handle, const Resta
         throw ExportError("", std::string("instance \"") + i.name + "\" has no mesh");
     if (is_missing(mesh)) return missing_lines(mesh, i, k);
     const auto finish = [&](const std::string& type, Params& params) { return shape_line(type, params, i, k); };
-    std::vector<std::string> out; // the shapes behind the triangles: one, or many curves
+    std::vector<std::string> out; // the shapes that the triangles represent: one, or many curves
     for (const std::string& primitive : lines(mesh.primitive)) {
         const std::size_t space = std::min(primitive.find(' '), primitive.size());
         const std::string type = primitive.substr(0, space);

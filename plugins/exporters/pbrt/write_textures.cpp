@@ -55,7 +55,7 @@ std::string Exporter::place_file(const std::string& path) {
     if (!file.empty()) return file;
     const fs::path source(path);
     if (options_.textures == Files::absolute) return file = source.generic_string();
-    if (const std::string inside = out_.inside(source); !inside.empty()) return file = inside; // beside the scene
+    if (const std::string inside = out_.inside(source); !inside.empty()) return file = inside; // next to the scene
     if (options_.textures == Files::relative) {
         file = source.lexically_relative(out_.folder()).generic_string();
         return file = file.empty() ? source.generic_string() : file; // on another drive
@@ -78,8 +78,8 @@ std::string Exporter::image_file(RestageHandle handle) {
         return file;
     }
     dropped(std::string("image \"") + image.name + "\"",
-            std::string("its file is missing, it is named as before: ") + image.path);
-    Params as_written; // what the importer kept of a missing file
+            std::string("its file is missing; its name is written unchanged: ") + image.path);
+    Params as_written; // the importer's stand-in for a missing file
     for (const std::string& line : lines(image.origin->verbatim))
         as_written.add_raw(line);
     as_written.map_strings([&](const std::string& name) { return file = name; });
@@ -124,12 +124,12 @@ void Exporter::put_image_texture(Params& params, const RestageTexture& t, const 
     } else if (png && image.encoding != RESTAGE_SRGB) {
         params.add_string("encoding", linear ? "linear" : "gamma " + number(image.gamma));
     } else if (!png && image.encoding != RESTAGE_SRGB) {
-        approximated(what, "pbrt-v4 reads " + extension + " files as sRGB always; this one is taken as linear here");
+        approximated(what, "pbrt-v4 reads " + extension + " files always as sRGB; this one is read as linear here");
     }
     if (const float scale = values.number("scale", 1); scale != 1) params.add_float("scale", scale);
     if (values.boolean("invert", false)) {
         if (v3())
-            approximated(what, "pbrt-v3 cannot invert a picture; it is written as it is");
+            approximated(what, "pbrt-v3 cannot invert a picture; it is written without inversion");
         else
             flag(params, "invert", true);
     }
@@ -228,7 +228,7 @@ std::string Exporter::placing(const Values& values, const std::string& imported,
     const auto to_scene = inverse(to_texture.data());
     if (!to_scene) {
         approximated(what,
-                     "its coordinates lie in a plane or on a line, which no transform of pbrt's gives; the "
+                     "its coordinates lie in a plane or on a line, which pbrt's transforms cannot express; the "
                      "scene's are written");
         return "";
     }
@@ -244,11 +244,11 @@ void Exporter::put_mapping(Params& params, const Values& values, const std::stri
         if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
     if (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0)
         approximated(
-            what, "it is rotated on the surface, and pbrt's mapping only scales and shifts; the rotation is left out");
+            what, "it is rotated on the surface, but pbrt's mapping only scales and shifts; the rotation is dropped");
     if (values.number("uvset", 0) == 1)
-        approximated(
-            what,
-            "it uses the second texture coordinates of its meshes, and pbrt's have one set, which is used instead");
+        approximated(what,
+                     "it uses the second texture coordinates of its meshes, but pbrt's have only one set, which is "
+                     "used instead");
     const std::string mapping = values.choice("mapping", "uv");
     if (mapping == "uv") return;
     params.add_string("mapping", mapping);
@@ -259,7 +259,7 @@ void Exporter::put_mapping(Params& params, const Values& values, const std::stri
         }
 }
 
-// Classes that are not rendered here, but that both versions have. False: another class.
+// Classes that both versions have, but that are not rendered here. False: another class.
 bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Values& values, const std::string& what,
                               std::string& type) {
     const bool is_float = t.is_float != 0;
@@ -296,9 +296,9 @@ bool Exporter::put_procedural(Params& params, const RestageTexture& t, const Val
     } else if (type == "uv" && !is_float) {
         put_mapping(params, values, what);
         if (v3()) return true;
-        type = "bilerp"; // the same where uv are in [0,1]
+        type = "bilerp"; // identical for uv in [0,1]
         params.add_rgb("v00", {0, 0, 0}).add_rgb("v01", {0, 1, 0}).add_rgb("v10", {1, 0, 0}).add_rgb("v11", {1, 1, 0});
-        approximated(what, "pbrt-v4 has no texture \"uv\"; a bilerp is written, the same where uv are in [0,1]");
+        approximated(what, "pbrt-v4 has no texture \"uv\"; a bilerp is written, which is identical for uv in [0,1]");
     } else {
         return false;
     }
@@ -313,7 +313,7 @@ std::string Exporter::texture(RestageHandle handle, std::optional<bool> as_float
     std::string& known = textures_.try_emplace({handle, is_float}).first->second;
     if (!known.empty() || !writing_.insert({handle, is_float}).second) return known; // breaks cycles
     const std::string what = std::string("texture \"") + t.name + "\"", type = t.type;
-    std::string place, rest; // its transform means the same to both versions
+    std::string place, rest; // its transform has the same meaning in both versions
     for (const std::string& line : lines(t.origin->verbatim))
         (line.starts_with("Transform [") ? place : rest) += line + "\n";
     const Kept k = kept({.value_count = t.origin->value_count,
@@ -329,13 +329,13 @@ std::string Exporter::texture(RestageHandle handle, std::optional<bool> as_float
         put_argument(params, values, "value", "value", is_float, 1);
     } else if (type == "imagemap" && !t.image) {
         written = "constant";
-        approximated(what, "it has no image; the grey that it shades is written");
+        approximated(what, "it has no image; its grey is written");
         put_argument(params, values, "average", "value", is_float, 0.5f);
     } else if (type == "imagemap") {
         if (other_kind && is_float) // is_float: the first channel here
             approximated(what,
-                         "it is a colour where one number is needed; pbrt takes the mean of red, green and blue, "
-                         "and not the red");
+                         "it is a colour where one number is needed; pbrt uses the mean of red, green and blue "
+                         "instead of the red");
         put_image_texture(params, t, values, what);
         put_mapping(params, values, what);
     } else if (type == "scale") {
@@ -358,7 +358,7 @@ std::string Exporter::texture(RestageHandle handle, std::optional<bool> as_float
                 params.add_float("value", mean[0]);
             else
                 params.add_rgb("value", mean);
-        } else { // of a plugin: it goes out as it came
+        } else { // of a plugin: written unchanged
             for (std::uint32_t i = 0; i < t.value_count; ++i) {
                 const RestageValue& v = RESTAGE_AT(RestageValue, t.values, i);
                 if (v.type == RESTAGE_FLOAT) put_argument(params, values, v.id, v.id, true, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media, the environment and lights without a surface. Textures and materials have files of their own.
+// Media, the environment and lights without a surface. Textures and materials are in other files.
 #include "exporter.hpp"
 
 namespace restage::pbrt_out {
@@ -26,7 +26,7 @@ std::string Exporter::medium(RestageHandle handle) {
     for (const std::string& line : k.lines) {
         Params one;
         one.add_raw(line);
-        if (!one.has("preset")) // its numbers are written; pbrt takes one of the two
+        if (!one.has("preset")) // its numbers are written; pbrt accepts only one of the two
             params.add_raw(line);
     }
     comment(k.foreign);
@@ -40,10 +40,10 @@ void Exporter::environment() {
     if (!in_.environment(in_.ctx, &e)) return;
     const std::string what = std::string("environment \"") + e.name + "\"";
     const Kept k = kept(*e.origin, what);
-    if (e.hidden_from_camera) approximated(what, "pbrt has no sky hidden from the camera: it is visible there");
+    if (e.hidden_from_camera) approximated(what, "pbrt has no skies hidden from the camera: it is visible there");
     if (e.sky && *e.sky)
-        approximated(what, std::string("pbrt knows no sky \"") + e.sky +
-                               "\": the picture that it makes is written, its values are not");
+        approximated(what,
+                     std::string("pbrt has no sky \"") + e.sky + "\": its picture is written, its values are not");
     std::array<float, 3> scale{e.scale[0], e.scale[1], e.scale[2]};
     Params params;
     std::string file;

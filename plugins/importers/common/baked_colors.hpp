@@ -12,12 +12,12 @@ namespace restage::importing {
 
 using CornerColor = std::function<Rgb(std::size_t triangle, std::size_t corner)>; // linear
 
-// Of 2 x 2 texels a triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is the linear
+// 2 x 2 texels per triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is the linear
 // interpolation over the triangle. The mesh shares no corners afterwards and has new uv. Returns the image; 0 and an
 // unchanged mesh if there are more triangles than a picture of this kind should hold (4 million, 200 MB).
 RestageHandle bake_colors(const RestageSceneWriter1&, const std::string& name, MeshBuffer&, const CornerColor&);
 
-// Unshares corners: what belongs to triangles can then belong to vertices.
+// Unshares corners, so that per-triangle data can be stored per vertex.
 void unshare_corners(MeshBuffer&);
 
 } // namespace restage::importing

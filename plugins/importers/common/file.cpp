@@ -104,7 +104,7 @@ fs::path find_file(const fs::path& folder, const std::string& name) {
         const fs::path full = fs::weakly_canonical(path, code);
         return code ? path : full;
     };
-    const fs::path as_written = folder / fs::path(name); // an absolute name stays as it is
+    const fs::path as_written = folder / fs::path(name); // an absolute name is unchanged
     if (fs::exists(as_written, code)) return absolute(as_written);
     std::string slashes = name;
     std::replace(slashes.begin(), slashes.end(), '\\', '/');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How deep JSON is nested, before a recursive reader gets it.
+// Checks how deep JSON is nested, before a recursive reader reads it.
 #pragma once
 
 #include <cstddef>

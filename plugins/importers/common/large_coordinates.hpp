@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Map coordinates (UTM, millions of metres) have more digits than a float: the mesh is kept about a point of
-// its own, and the instance's transform, which is double, puts it back.
+// Map coordinates (UTM, millions of metres) have more digits than a float: the mesh is stored relative to
+// its own origin, and the instance's transform, which is double, moves it back.
 #pragma once
 
 #include "common/matrix.hpp"
@@ -11,7 +11,7 @@
 
 namespace restage::importing {
 
-// 3 a vertex, finite. `origin` stays 0 if floats are good enough: their rounding, 2^-24 of the largest coordinate,
+// 3 per vertex, finite. `origin` stays 0 if floats are sufficient: their rounding, 2^-24 of the largest coordinate,
 // is below a millionth of the size of what they describe.
 inline std::vector<float> recentred(const std::vector<double>& positions, Vec3& origin) {
     Bounds bounds;

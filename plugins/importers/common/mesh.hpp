@@ -12,9 +12,9 @@
 namespace restage::importing {
 
 struct MeshBuffer {
-    std::vector<float> positions, normals, uvs; // 3, 3, 2 a vertex; normals and uvs may be empty
-    std::vector<std::uint32_t> indices;         // 3 a triangle
-    std::vector<float> tangents{}, uvs2{};      // 4 and 2 a vertex, or empty; see RestageMesh
+    std::vector<float> positions, normals, uvs; // 3, 3, 2 per vertex; normals and uvs may be empty
+    std::vector<std::uint32_t> indices;         // 3 per triangle
+    std::vector<float> tangents{}, uvs2{};      // 4 and 2 per vertex, or empty; see RestageMesh
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
     std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(indices.size() / 3); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that importers share: the unit of the file's lengths, and which of its axes is up.
+// Common options of importers: the unit of the file's lengths, and its up axis.
 #pragma once
 
 #include "common/matrix.hpp"
@@ -18,7 +18,7 @@ inline constexpr RestageParam up_option = RESTAGE_ENUM_PARAM(
     "up", "Up", "as_is|y|z", 0, 0,
     "Which axis is up in the file: it becomes y, which is up in the scene. as_is: nothing is turned");
 
-// Null: the host does not have it.
+// Null if the host does not have it.
 inline const RestageValue* option(const RestageSceneWriter1& out, const char* id) {
     if (out.size < offsetof(RestageSceneWriter1, option_count) + sizeof out.option_count) return nullptr;
     for (std::uint32_t i = 0; i < out.option_count; ++i)
@@ -38,7 +38,7 @@ inline bool flag_option(const RestageSceneWriter1& out, const char* id) {
 struct Placement {
     Up up; // of the scene
     Matrix to_world;
-    double metres = 1; // what a length of 1 in the file becomes
+    double metres = 1; // scene length of 1 unit of the file
     bool changes = false;
 
     Placement(const RestageSceneWriter1& out, Up of_format) : up(of_format) {
@@ -50,7 +50,7 @@ struct Placement {
             to_world.set_column(c, to_world.column(c) * metres);
         changes = axis == "z" || metres != 1;
     }
-    Matrix of(const Matrix& in_file) const { return changes ? to_world * in_file : in_file; } // bit for bit where not
+    Matrix of(const Matrix& in_file) const { return changes ? to_world * in_file : in_file; } // else bit-identical
 };
 
 } // namespace restage::importing

@@ -14,7 +14,7 @@
 
 namespace restage::importing {
 
-// For RESTAGE_PLUGIN_INIT: asks the host for its decoder. 1: it has one.
+// For RESTAGE_PLUGIN_INIT: gets the host's decoder. 1 if it has one.
 int use_host_pictures(const RestageHost*);
 
 // Row 0 is the top. Copies share the texels; none may outlive the plugin.

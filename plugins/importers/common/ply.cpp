@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The elements of a PLY file: which properties mean what, and where their numbers go.
+// The elements of a PLY file: the meaning of properties, and the destination of their numbers.
 #include "common/ply.hpp"
 
 #include "common/large_coordinates.hpp"
@@ -82,7 +82,7 @@ class Reader {
                 rows_.skip(property);
     }
 
-    // Where each property of a row goes: which array, which component.
+    // The destination of each property of a row: array and component.
     struct Target {
         std::vector<float>* array = nullptr;
         std::vector<double>* wide = nullptr; // instead
@@ -357,7 +357,7 @@ class Reader {
 } // namespace
 
 PlyMesh read_ply(std::string_view bytes, const PlyWanted& wanted) {
-    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3); // a byte order mark, as Windows editors write it
+    if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3); // a byte order mark, written by Windows editors
     return Reader(bytes, wanted).read();
 }
 

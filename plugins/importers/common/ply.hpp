@@ -20,18 +20,18 @@ struct PlyWanted {
 };
 
 struct PlyMesh {
-    std::vector<float> positions, normals, uvs; // 3, 3 and 2 a vertex; the last two may be empty
-    std::vector<std::uint32_t> indices;         // 3 a triangle, < vertex_count()
+    std::vector<float> positions, normals, uvs; // 3, 3 and 2 per vertex; the last two may be empty
+    std::vector<std::uint32_t> indices;         // 3 per triangle, < vertex_count()
     Vec3 origin{};                              // to be added to the positions
     bool has_bent_polygons = false;             // some were not flat before triangulation
 
     // Empty unless the file has them and they were requested.
-    std::vector<float> colors;                    // 3 a vertex, 0..1, as stored (sRGB by convention)
-    std::vector<float> corner_uvs;                // 6 a triangle
-    std::vector<float> triangle_colors;           // 3 a triangle
-    std::vector<std::uint32_t> triangle_textures; // 1 a triangle: index of `textures`
-    std::vector<std::string> textures;            // names, as the file has them
-    std::vector<std::uint32_t> edges;             // 2 a line, < vertex_count()
+    std::vector<float> colors;                    // 3 per vertex, 0..1, as stored (sRGB by convention)
+    std::vector<float> corner_uvs;                // 6 per triangle
+    std::vector<float> triangle_colors;           // 3 per triangle
+    std::vector<std::uint32_t> triangle_textures; // 1 per triangle: index of `textures`
+    std::vector<std::string> textures;            // names, as in the file
+    std::vector<std::uint32_t> edges;             // 2 per line, < vertex_count()
     std::map<std::string, std::size_t> not_read;  // "vertex property \"quality\"", "element \"camera\"" -> how many
 
     std::size_t vertex_count() const { return positions.size() / 3; }

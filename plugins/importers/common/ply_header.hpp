@@ -41,7 +41,7 @@ enum class PlyFormat { ascii, little, big };
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::vector<std::string> textures; // what VCGLIB's `comment TextureFile` lines name
+    std::vector<std::string> textures; // names in VCGLIB's `comment TextureFile` lines
     std::size_t size = 0; // [byte]; the data follow
 };
 

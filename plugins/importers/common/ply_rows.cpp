@@ -76,7 +76,7 @@ void PlyRows::check_count(const PlyElement& element) const {
     // The last number of an ascii file may lack the trailing blank.
     if (row > 0 && element.count > (left() + 1) / row)
         fail(std::to_string(element.count) + " '" + element.name +
-             "' elements are promised, but the file ends before them (truncated?)");
+             "' elements are declared, but the file ends before them (truncated?)");
     if (row == 0 && element.count > 0 && element.properties.empty()) return;
     if (element.count > 0xffffffffu) fail("more than 2^32 '" + element.name + "' elements");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of a PLY file after its header, one after the other.
+// The numbers of a PLY file after its header, in sequence.
 #pragma once
 
 #include "common/ply_header.hpp"
@@ -25,7 +25,7 @@ class PlyRows {
     std::size_t list_count(const PlyProperty&);
     void skip(const PlyProperty&);
 
-    // Rows of a binary element without lists lie at equal distances: plain() returns them all, and skips past them.
+    // Rows of a binary element without lists have a constant size: plain() returns them all, and skips past them.
     bool is_plain(const PlyElement& element) const { return !ascii_ && !element.has_lists; }
     const char* plain(const PlyElement&); // null if lists occur or there are no rows
     bool skip_plain(const PlyElement& element) { return plain(element) != nullptr; }

@@ -74,7 +74,7 @@ class EarCutter {
 } // namespace
 
 double cut_polygon(std::span<const Vec3> all, std::vector<std::uint32_t>& out) {
-    // A corner that repeats the previous one adds nothing, and would hide which way the polygon turns there.
+    // A corner that repeats the previous one adds nothing, and would hide the polygon's direction of turning there.
     std::vector<std::uint32_t> which;
     std::vector<Vec3> corners;
     for (std::uint32_t i = 0; i < all.size(); ++i)

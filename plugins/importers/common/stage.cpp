@@ -52,7 +52,7 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     const Vec3 center = bounds.empty() ? Vec3{0, 0, 0} : bounds.center();
     const Vec3 from = transform_vector(stage, normalized({0.45, 0.35, 1}));
     const Matrix view = look_at(center + from, center, stage.column(1));
-    // The nearest place from which every corner is seen at 16:9: |x| <= tan(fov / 2) aspect (distance - z), y alike.
+    // The nearest place from which every corner is visible at 16:9: |x| <= tan(fov / 2) aspect (distance - z), y alike.
     const double tan_y = std::tan(fov / 2 * std::numbers::pi / 180), tan_x = tan_y * 16 / 9;
     double distance = std::max(bounds.radius(), 1e-6);
     for (std::size_t i = 0; i < 8 && !bounds.empty(); ++i) {
@@ -63,7 +63,7 @@ void add_camera(const RestageSceneWriter1& out, Report& report, const Bounds& bo
     }
     distance *= 1.08;
     const Matrix placed = look_at(center + from * distance, center, stage.column(1));
-    // The frame is what the corners fill from there, so that any other aspect shows them all as well.
+    // The frame encloses the corners as seen from there, so that any other aspect shows them all as well.
     double half_x = 0, half_y = 0;
     for (std::size_t i = 0; i < 8 && !bounds.empty(); ++i) {
         const Vec3 corner = bounds.corner(i) - center;

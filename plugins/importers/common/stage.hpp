@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For files that hold objects only: a camera that shows all of them, and a neutral studio to see them in.
+// For files with objects only: a camera that shows all of them, and a neutral studio to light them.
 #pragma once
 
 #include "common/matrix.hpp"
@@ -15,7 +15,7 @@ enum class Up { y, z };
 // hence mirrored.
 Matrix look_at(Vec3 eye, Vec3 target, Vec3 up);
 
-// A camera in front of `bounds`, a little from above and from the right, with the whole of it in a picture of any
+// A camera in front of `bounds`, slightly from above and from the right, with all of it in a picture of any
 // aspect. In one of 16:9 its field of view is 40 degrees.
 void add_camera(const RestageSceneWriter1&, Report&, const Bounds& bounds, Up);
 // A picture of 1280 x 720 pixels, or of another aspect and that area. See RestageFilm::unexposed.

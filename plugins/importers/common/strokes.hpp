@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points and lines have no surface that light could meet: if a file holds nothing else they get a thickness.
+// Points and lines have no surface to render: if a file contains nothing else they get a thickness.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -18,9 +18,9 @@ struct Strokes {
     std::size_t step = 1;           // every step-th was kept
 };
 
-// An octahedron a point; a third of the mean distance of points that are spread over a surface of the cloud's size.
+// An octahedron per point; a third of the mean distance of points spread over a surface of the cloud's size.
 Strokes thick_points(std::span<const float> positions, std::span<const std::uint32_t> points);
-// A square bar a line (two points); a three-hundredth of the size of the whole.
+// A square bar per line (two points); a three-hundredth of the total size.
 Strokes thick_lines(std::span<const float> positions, std::span<const std::uint32_t> lines);
 
 } // namespace restage::importing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and textures as the scene has them: an imagemap over uv (v upwards), perhaps times a colour.
+// Images and textures in the scene's form: an imagemap over uv (v upwards), optionally times a colour.
 #pragma once
 
 #include "common/picture.hpp"
@@ -17,7 +17,7 @@ struct Mapping { // st = uv * scale + vu * shear + offset
     int set = 0; // of the mesh: 0 or 1
 };
 
-// An image file for the host to read. A missing one stays in the scene, and in the report.
+// An image file for the host to read. A missing one is kept in the scene and reported.
 RestageHandle add_image_file(const RestageSceneWriter1&, const std::string& path, RestageEncoding);
 
 // Pixels made here. value(pixel, channel) is linear; channels: 1 or 3.

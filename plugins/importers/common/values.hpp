@@ -26,7 +26,7 @@ class Values {
     void choice(const char* id, const char* value) {
         values_.push_back({.type = RESTAGE_ENUM, .id = id, .text = value});
     }
-    // A texture in place of a value of that type; RESTAGE_TEXTURE: a slot without a constant.
+    // A texture instead of a value of that type; RESTAGE_TEXTURE: a slot without a constant.
     void texture(const char* id, RestageType type, std::uint32_t handle) {
         values_.push_back({.type = static_cast<std::uint32_t>(type), .id = id, .ref = handle});
     }

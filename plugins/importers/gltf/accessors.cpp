@@ -106,11 +106,11 @@ const tinygltf::Accessor& checked(const tinygltf::Model& model, int index, int c
     const int wanted = components == 16 ? TINYGLTF_TYPE_MAT4 : types[components];
     if (accessor.type != wanted) throw ImportError{who + " has the wrong type for this use", 0, 0, {}};
     if (accessor.bufferView < 0 && accessor.count > most_elements)
-        throw ImportError{who + " promises " + number(accessor.count) + " elements and has no data", 0, 0, {}};
+        throw ImportError{who + " declares " + number(accessor.count) + " elements and has no data", 0, 0, {}};
     if (accessor.bufferView >= 0 &&
         accessor.count > view_bytes(model, accessor.bufferView, who).size()) // an element has a byte at least
         throw ImportError{
-            who + " promises " + number(accessor.count) + " elements; its buffer view is smaller", 0, 0, {}};
+            who + " declares " + number(accessor.count) + " elements; its buffer view is smaller", 0, 0, {}};
     return accessor;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One import: the model, and what has been built from it so far. Each kind of thing has a file of its own.
+// One import: the model, and the scene built so far. Each kind of thing has its own file.
 #pragma once
 
 #include "common/mesh.hpp"
@@ -17,7 +17,7 @@
 
 namespace restage::gltf {
 
-// KHR_texture_transform as an affine map of (u, v), v downwards as glTF has it.
+// KHR_texture_transform as an affine map of (u, v), v downwards as in glTF.
 struct UvTransform {
     double a = 1, b = 0, c = 0, d = 1, x = 0, y = 0; // u' = a u + b v + x, v' = c u + d v + y
 };
@@ -29,13 +29,13 @@ struct TextureUse { // a textureInfo from anywhere in the file
     explicit operator bool() const { return index >= 0; }
 };
 
-// Which TEXCOORD_n become the two sets a mesh has; -1: none.
+// The TEXCOORD_n that become the mesh's two sets; -1: none.
 struct UvSets {
     std::array<int, 2> texcoord{-1, -1};
     int find(int set) const { return set == texcoord[0] ? 0 : set == texcoord[1] ? 1 : -1; }
 };
 
-// How vertex colours modify a material: by one factor, or by pictures made of them (Importer::vertex_color).
+// How vertex colours modify a material: by one factor, or by baked pictures (Importer::vertex_color).
 struct VertexColor {
     Rgb factor{1, 1, 1};
     double alpha = 1;

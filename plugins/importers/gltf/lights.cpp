@@ -13,7 +13,7 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// Unit axes of a node, its scale left out.
+// Unit axes of a node, without its scale.
 Matrix directions(const Matrix& world) {
     Matrix m;
     m.set_column(1, normalized(world.column(1), {0, 1, 0}));
@@ -101,7 +101,7 @@ void Importer::light(int index, int light_index) {
                  "has the value 1 in the picture");
     const Matrix placed = turned_forward(directions(world_[static_cast<std::size_t>(index)]));
     std::copy(placed.m.begin(), placed.m.end(), light.light_to_world);
-    lights_ += out_.light(out_.ctx, &light) != 0 && !(light.flags & RESTAGE_LIGHT_HIDDEN); // which leave it dark
+    lights_ += out_.light(out_.ctx, &light) != 0 && !(light.flags & RESTAGE_LIGHT_HIDDEN); // which do not light it
 }
 
 } // namespace restage::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stages of an import: bytes, tinygltf, what the file requires, nodes, cameras and lights, leftovers.
+// The stages of an import: bytes, tinygltf, required extensions, nodes, cameras and lights, leftovers.
 #include "load.hpp"
 
 #include "common/file.hpp"
@@ -89,7 +89,7 @@ void Importer::run() {
                               std::to_string(lights_) + " lights, " + std::to_string(cameras_) + " cameras");
     tell_leftovers();
     if (cameras_ == 0) add_camera(out_, report_, bounds_, Up::y);
-    // The file's own camera may be in a closed room; ours sees everything from outside, in the studio.
+    // The file's own camera may be in a closed room; ours shows everything from outside, in the studio.
     add_film(out_, aspect_, lights_ > 0 || cameras_ > 0);
     if (lights_ == 0) add_studio(out_, report_, Up::y);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_materials_*: into the principled material if it has the same, else the nearest and a line in the report.
+// KHR_materials_*: mapped to the principled material if it has an equivalent, else to the nearest with a line in the
+// report.
 #include "importer.hpp"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ void Importer::glossiness(const tinygltf::Value& v, bool metal, MadeMaterial& ma
                              "its diffuse colour is not dimmed by the specular picture, but by what that reflects");
 }
 
-// A coat over a surface with a normal map: here both have one normal.
+// A coat over a surface with a normal map: here both share one normal.
 void Importer::clear_coat(const tinygltf::Material& m, const tinygltf::Value& v, MadeMaterial& made, Values& values) {
     const double factor = number_of(v, "clearcoatFactor", 0);
     put_scalar(values, "clearcoat", factor, use_of(v, "clearcoatTexture", "clear coat"), 0, made);

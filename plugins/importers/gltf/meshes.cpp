@@ -26,7 +26,7 @@ std::vector<std::uint32_t> as_triangles(const std::vector<std::uint32_t>& in, in
 }
 
 template <class T, std::size_t N>
-void gather(std::vector<T>& values, const std::vector<std::uint32_t>& order) { // N numbers a vertex
+void gather(std::vector<T>& values, const std::vector<std::uint32_t>& order) { // N numbers per vertex
     std::vector<T> result;
     result.reserve(order.size() * N);
     for (const std::uint32_t i : order)
@@ -35,7 +35,7 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& order) { /
     values = std::move(result);
 }
 
-void unshare(MeshBuffer& mesh) { // each corner a vertex of its own
+void unshare(MeshBuffer& mesh) { // each corner becomes a separate vertex
     gather<float, 3>(mesh.positions, mesh.indices);
     if (!mesh.normals.empty()) gather<float, 3>(mesh.normals, mesh.indices);
     if (!mesh.uvs.empty()) gather<float, 2>(mesh.uvs, mesh.indices);
@@ -45,7 +45,7 @@ void unshare(MeshBuffer& mesh) { // each corner a vertex of its own
         mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
-// Of the picture that holds the vertex colours of so many triangles, two texels each.
+// Size of the picture that holds the vertex colours of so many triangles, 2 x 2 texels each.
 std::uint32_t picture_columns(std::uint32_t triangles) {
     return static_cast<std::uint32_t>(std::ceil(std::sqrt(double(triangles))));
 }
@@ -90,7 +90,7 @@ void Importer::pose(const tinygltf::Primitive& p, const std::string& who, int no
     const auto weights = read_floats(model_, p.attributes.at("WEIGHTS_0"), 4, who + ": WEIGHTS_0");
     if (joints.size() != 4 * vertices || weights.size() != 4 * vertices)
         throw ImportError{who + ": joints or weights for another number of vertices"};
-    if (p.attributes.contains("JOINTS_1")) report_.approximated(who, "only four joints a vertex are used");
+    if (p.attributes.contains("JOINTS_1")) report_.approximated(who, "only four joints per vertex are used");
     std::vector<Matrix> matrices(skin.joints.size());
     std::vector<float> inverse;
     if (skin.inverseBindMatrices >= 0)
@@ -199,8 +199,8 @@ std::optional<MeshBuffer> Importer::read_primitive(const tinygltf::Primitive& p,
     return buffer;
 }
 
-// A texture of 2 x 2 texels a triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is the
-// linear interpolation over the triangle.
+// A texture of 2 x 2 texels per triangle, read at their centres: bilinear filtering of c0, c1, c2 and c1 + c2 - c0 is
+// the linear interpolation over the triangle.
 RestageHandle Importer::color_picture(const std::string& name, const std::vector<float>& colors, bool alpha,
                                       const MeshBuffer& buffer) {
     const std::uint32_t triangles = buffer.triangle_count(), columns = picture_columns(triangles);
@@ -216,7 +216,7 @@ RestageHandle Importer::color_picture(const std::string& name, const std::vector
     });
 }
 
-// Where they vary they become pictures on a set of texture coordinates of their own; corners are then no longer shared.
+// Varying ones become pictures on a separate set of texture coordinates; corners are then no longer shared.
 VertexColor Importer::vertex_color(const tinygltf::Primitive& p, const std::string& who,
                                    const std::vector<float>& colors, const UvSets& sets, MeshBuffer& buffer) {
     VertexColor result;
@@ -262,7 +262,7 @@ VertexColor Importer::vertex_color(const tinygltf::Primitive& p, const std::stri
             uvs.push_back(static_cast<float>(x / width));
             uvs.push_back(static_cast<float>(1 - y / height));
         }
-    report_.kept(who + ": vertex colours", "as a texture on texture coordinates of its own");
+    report_.kept(who + ": vertex colours", "as a texture on separate texture coordinates");
     return result;
 }
 

@@ -22,7 +22,7 @@ bool is_picture(const std::string& path) {
     return false;
 }
 
-// The name in the scene file, and the length, of a buffer in a file of its own; by the name tinygltf makes of it.
+// The name in the scene file, and the length, of a buffer in a separate file; by tinygltf's name for it.
 struct BufferFiles {
     struct Buffer {
         fs::path path;
@@ -146,7 +146,7 @@ void check_header(std::string_view bytes) { // of a GLB: magic, version, length,
     if (word(4) != 2)
         throw ImportError{"byte 4: this is GLB version " + std::to_string(word(4)) + "; version 2 is read"};
     if (word(8) > bytes.size())
-        throw ImportError{"byte 8: the file is cut: " + std::to_string(word(8)) + " bytes promised, " +
+        throw ImportError{"byte 8: the file is cut: " + std::to_string(word(8)) + " bytes declared, " +
                           std::to_string(bytes.size()) + " found"};
     std::size_t at = 12;
     while (at + 8 <= bytes.size() && at < word(8)) {
@@ -164,7 +164,7 @@ std::string_view json_of(std::string_view bytes) {
     return bytes.substr(20, length);
 }
 
-// tinygltf turns JSON into values of its own by recursion. Of a GLB only the first chunk is JSON.
+// tinygltf converts JSON to its own values recursively. Of a GLB only the first chunk is JSON.
 void check_depth(std::string_view bytes, bool binary) {
     constexpr std::size_t most = 256; // glTF's own depth is about 10; extensions and extras add theirs
     const std::string_view json = binary ? json_of(bytes) : bytes;

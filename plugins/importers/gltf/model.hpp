@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A glTF file as tinygltf reads it, and typed reading of its accessors, every index and length checked: tinygltf checks
+// A glTF file as read by tinygltf, and typed reading of its accessors, every index and length checked: tinygltf checks
 // neither. Faults are thrown as an ImportError that names the thing by its glTF index ("accessor 3").
 #pragma once
 
@@ -30,7 +30,7 @@ namespace restage::gltf {
 
 using namespace importing;
 
-// Parses .gltf or .glb (told apart by their first bytes) and reads its buffers. External pictures are left alone.
+// Parses .gltf or .glb (distinguished by their first bytes) and reads its buffers. External pictures are not read.
 tinygltf::Model parse_model(const std::filesystem::path&, std::string_view bytes, const RestageSceneWriter1&);
 
 // "accessor 3" etc. of a vector, or an ImportError in which `who` refers to a missing one.
@@ -47,7 +47,8 @@ const T& at(const std::vector<T>& things, int index, const char* kind, const std
 // The bytes of a buffer view.
 std::span<const unsigned char> view_bytes(const tinygltf::Model&, int view, const std::string& who);
 
-// All elements of an accessor, `components` numbers each, as floats (integers normalised where the accessor says so).
+// All elements of an accessor, `components` numbers each, as floats (integers normalised if the accessor is
+// normalized).
 std::vector<float> read_floats(const tinygltf::Model&, int accessor, int components, const std::string& who);
 // VEC3 or VEC4 alike, as colours: four numbers each, alpha 1 if there is none.
 std::vector<float> read_colors(const tinygltf::Model&, int accessor, const std::string& who);

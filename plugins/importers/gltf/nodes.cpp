@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node hierarchy: a node with several things below it is a group, each primitive of its mesh an instance.
+// The node hierarchy: a node with several things below it becomes a group, each primitive of its mesh an instance.
 #include "importer.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ std::string Importer::node_name(int index) const {
     return "node " + std::to_string(index);
 }
 
-// The nodes to begin at: those of the default scene; without scenes, those without a parent (3.5.1).
+// The root nodes: those of the default scene; without scenes, those without a parent (3.5.1).
 std::vector<int> Importer::choose_roots() {
     const std::optional<int> asked = asked_scene();
     if (model_.scenes.empty()) {
@@ -85,8 +85,8 @@ std::vector<int> Importer::choose_roots() {
     for (std::size_t i = 0; i < model_.scenes.size(); ++i)
         if (static_cast<int>(i) != index && !model_.scenes[i].nodes.empty())
             report_.dropped("scene " + quote(scene_name(static_cast<int>(i))),
-                            asked ? "the file holds several; another one was asked for"
-                                  : "the file holds several; its default one is opened (import option scene)");
+                            asked ? "the file contains several; another one was requested"
+                                  : "the file contains several; its default one is opened (import option scene)");
     return scene.nodes;
 }
 

@@ -11,7 +11,7 @@ static const RestageParam options[] = {
     restage::importing::units_option,
     restage::importing::up_option,
     RESTAGE_TEXT_PARAM("scene", "Scene", 0,
-                       "Of a file that holds several: its name, or its number from 1. Empty: the file's default"),
+                       "The scene to read, by its name or its number from 1. Empty: the file's default"),
 };
 
 static const RestageImporter1 importer = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures: which picture, which channel of it, and where on the surface. Pictures that are files stay files; embedded
-// ones, single channels, masks and mirrored tilings become pixels.
+// Textures: their picture, channel and mapping. Pictures in files stay files; embedded ones, single channels, masks and
+// mirrored tilings become pixels.
 #include "common/file.hpp"
 #include "importer.hpp"
 
@@ -129,7 +129,7 @@ RestageHandle Importer::image(int index, Purpose purpose, double number, bool mi
     return handle;
 }
 
-// uv as the mesh has it, v upwards -> st of the picture. Mirrored tilings are doubled pictures, tiled.
+// uv of the mesh, v upwards -> st of the picture. Mirrored tilings are doubled pictures, tiled.
 Mapping Importer::mapping(const TextureUse& use, const UvSets& sets, bool& mirror_u, bool& mirror_v,
                           const std::string& material) {
     const std::string what = "material " + quote(material) + ": " + use.slot + " texture";

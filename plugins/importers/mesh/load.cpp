@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One mesh, one object of its colours, its pictures or grey, a camera and a studio.
+// One mesh, one object with its colours, its pictures or grey, a camera and a studio.
 #include "load.hpp"
 
 #include "common/bytes.hpp"

@@ -18,17 +18,17 @@ struct Content {
     importing::MeshBuffer mesh;
     importing::Vec3 origin{};               // to be added to the positions
     std::vector<float> vertex_colors;       // 3 a vertex, 0..1 (sRGB)
-    std::vector<float> triangle_colors;     // 3 a triangle
-    std::vector<float> corner_uvs;          // 6 a triangle
-    std::vector<std::uint32_t> triangle_pictures; // 1 a triangle: index of `pictures`
-    std::vector<std::string> pictures;      // names, as the file has them
-    std::vector<std::uint32_t> edges;       // 2 a line
+    std::vector<float> triangle_colors;     // 3 per triangle
+    std::vector<float> corner_uvs;          // 6 per triangle
+    std::vector<std::uint32_t> triangle_pictures; // 1 per triangle: index of `pictures`
+    std::vector<std::string> pictures;      // names, as in the file
+    std::vector<std::uint32_t> edges;       // 2 per line
     std::vector<std::string> notes;         // approximations, for the report
     std::vector<std::pair<std::string, std::string>> not_read; // what, and how much
 };
 
-// An object a picture, or one of its colours, or grey. A file of points or lines only gets thick ones. Returns where
-// they are. Throws ImportError if there is nothing to show.
+// One object per picture, or one with the colours, or grey. Points or lines without faces get a thickness. Returns
+// the bounds. Throws ImportError if there is nothing to show.
 importing::Bounds add_objects(const RestageSceneWriter1&, importing::Report&, const std::filesystem::path&, Content,
                               const importing::Placement&);
 

@@ -61,7 +61,7 @@ std::uint32_t facet_count(std::string_view bytes) { // little-endian, like the s
     return count;
 }
 
-// The format leaves two bytes behind each facet unused. VisCAM and SolidView: 15 bits blue, green, red from the
+// The format leaves two bytes after each facet unused. VisCAM and SolidView: 15 bits blue, green, red from the
 // lowest on, valid where the highest is set. Magics, whose header has "COLOR=" and a colour for the rest: red, green,
 // blue, and valid where it is not.
 class FacetColors {
@@ -101,13 +101,13 @@ Stl read_binary(std::string_view bytes) {
     std::size_t count = facet_count(bytes);
     Stl result;
     if (count == 0 && found > 0 && bytes.size() == header + found * facet) { // written before the count was known
-        result.notes.emplace_back("the header promises no facets; the " + std::to_string(found) +
+        result.notes.emplace_back("the header declares no facets; the " + std::to_string(found) +
                                   " that follow are read");
         count = found;
     }
     if (found < count)
         throw ImportError{"byte " + std::to_string(bytes.size()) + ": the file is cut: " + std::to_string(count) +
-                          " facets promised, " + std::to_string(found) + " found"};
+                          " facets declared, " + std::to_string(found) + " found"};
     if (const std::size_t rest = bytes.size() - header - count * facet; rest > 0 && count > 0)
         result.notes.emplace_back(std::to_string(rest) + " bytes behind the last facet are not read");
     Welder welder;
@@ -150,7 +150,7 @@ class Words {
             step();
         return text_.substr(start, at_ - start);
     }
-    // The name behind "solid" or "endsolid": to the end of the line, but no further than the statement that may follow
+    // The name after "solid" or "endsolid": to the end of the line, but no further than the statement that may follow
     // on it ("facet normal", "endsolid", "solid").
     void skip_name() {
         while (at_ < text_.size() && !std::strchr("\r\n", text_[at_])) {
@@ -244,7 +244,7 @@ Stl read_ascii(std::string_view text) {
     }
 }
 
-std::string_view without_mark(std::string_view bytes) { // a byte order mark, as Windows editors write it
+std::string_view without_mark(std::string_view bytes) { // a byte order mark, written by Windows editors
     return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
 }
 

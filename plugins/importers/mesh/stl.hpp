@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// STL: triangles and nothing else. Binary: 80 bytes, a count, 50 bytes a facet. Ascii: solid, facet normal, outer loop,
+// STL: only triangles. Binary: 80 bytes, a count, 50 bytes per facet. Ascii: solid, facet normal, outer loop,
 // vertex.
 #pragma once
 
@@ -18,7 +18,7 @@ bool is_ascii_stl(std::string_view bytes); // the first bytes are enough
 struct Stl {
     importing::MeshBuffer mesh;
     importing::Vec3 origin{}; // to be added to the positions
-    std::vector<float> colors; // 3 a triangle, 0..1 (sRGB), where facets have some (VisCAM, Magics)
+    std::vector<float> colors; // 3 per triangle, 0..1 (sRGB), if facets have colours (VisCAM, Magics)
     std::vector<std::string> notes; // faults of the file, and unknown parts
 };
 

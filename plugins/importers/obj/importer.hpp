@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One import: what was read, and what has been built from it so far.
+// One import: the model, and the scene built so far.
 #pragma once
 
 #include "common/error.hpp"
@@ -52,8 +52,8 @@ class Importer {
     };
     void object(const MeshBuffer&, const MadeMaterial&, const Object&);
     void gather(MeshBuffer, const MadeMaterial&, int material, const std::string& name); // for `merge`
-    void merged(); // the objects of what was gathered
-    void strokes(); // of a file that has points and lines only
+    void merged(); // the objects built from the shapes
+    void strokes(); // of a file with points and lines only
 
     // materials.cpp
     const MadeMaterial& material(int id);

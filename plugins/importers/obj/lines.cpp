@@ -27,7 +27,7 @@ bool Statements::next(Statement& out) {
     while (at_ < text_.size()) {
         std::string_view all = line();
         out.line = number_;
-        const auto goes_on = [](std::string_view part) { // tolerates blanks behind the backslash
+        const auto goes_on = [](std::string_view part) { // tolerates blanks after the backslash
             const std::size_t last = part.find_last_not_of(blanks);
             return last != part.npos && part[last] == '\\' ? last : part.npos;
         };

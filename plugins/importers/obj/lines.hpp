@@ -11,7 +11,7 @@ namespace restage::obj {
 
 struct Statement {
     std::uint32_t line = 0, column = 0; // of the first character of `rest`
-    std::string_view word, rest; // the keyword; what follows it, without blanks around. Valid until the next one
+    std::string_view word, rest; // the keyword, and the rest without surrounding blanks. Valid until the next one
 };
 
 // Takes \n, \r\n and \r as ends of a line, and a byte order mark at the beginning of the text.
@@ -19,10 +19,10 @@ class Statements {
   public:
     explicit Statements(std::string_view text);
     bool next(Statement&); // skips comments and empty lines
-    std::size_t position() const { return at_; } // [byte] behind the last statement
+    std::size_t position() const { return at_; } // [byte] after the last statement
 
   private:
-    std::string_view line(); // with at_ behind its end
+    std::string_view line(); // with at_ after its end
     std::string_view text_;
     std::size_t at_ = 0;
     std::uint32_t number_ = 0;

@@ -79,7 +79,7 @@ void Importer::read_libraries() {
     }
 }
 
-// The last of that name counts, as if they were read in sequence.
+// The last one of that name counts, as if they were read in sequence.
 const Mtl* Importer::find(const std::string& name) const {
     const Mtl* found = nullptr;
     for (const bool exact : {true, false})
@@ -89,7 +89,7 @@ const Mtl* Importer::find(const std::string& name) const {
     return found;
 }
 
-// Statements for which the scene has no place.
+// Statements without an equivalent in the scene.
 void Importer::tell_leftovers() {
     std::map<std::string, const char*> notes = {
         {"l", "lines have no surface"},
@@ -166,7 +166,7 @@ void Importer::run() {
     add_studio(out_, report_, placement_.up);
 }
 
-// A statement of one letter, and as many numbers behind it.
+// A statement of one letter, followed by as many numbers.
 bool begins_with_numbers(std::string_view line, char letter, int count) {
     if (line.size() < 2 || line[0] != letter || (line[1] != ' ' && line[1] != '\t')) return false;
     line.remove_prefix(1);

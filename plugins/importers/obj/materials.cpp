@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MTL materials as the nearest of ours: principled if the PBR extension is used, else by what the classic statements
-// describe. Bourke's page on MTL and Alias|Wavefront's manual, appendix B, say what they mean.
+// MTL materials as our nearest ones: principled if the PBR extension is used, else according to the classic statements.
+// Their meaning is from Bourke's page on MTL and Alias|Wavefront's manual, appendix B.
 #include "common/file.hpp"
 #include "importer.hpp"
 
@@ -73,8 +73,7 @@ RestageHandle Importer::alpha_texture(const Slot& slot, double factor) {
     const std::string path = find_file(slot.library.parent_path(), slot.options.file).string();
     std::string reason;
     const auto picture = read_picture(path, reason);
-    if (!picture || !picture->alpha_varies())
-        return scalar_texture(slot, factor); // the host reports what is wrong with it
+    if (!picture || !picture->alpha_varies()) return scalar_texture(slot, factor); // the host reports its errors
     const std::string name = slot.material + " " + slot.key;
     const RestageHandle image = add_pixels(out_, name, picture->width, picture->height, 1,
                                            [&](std::size_t pixel, unsigned) { return picture->value(pixel, 3); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading OBJ. Not through tinyobjloader: it holds coordinates as floats, at most 255 corners a face, ends names at
-// blanks, joins no lines, and reports neither lines nor columns. Bourke's page on OBJ and Alias|Wavefront's manual,
-// appendix B, say what the statements mean.
+// Reading OBJ. Not through tinyobjloader: it stores coordinates as floats, allows at most 255 corners per face, ends
+// names at blanks, joins no lines, and reports neither lines nor columns. The meaning of statements is from Bourke's
+// page on OBJ and Alias|Wavefront's manual, appendix B.
 #include "model.hpp"
 
 #include "common/error.hpp"

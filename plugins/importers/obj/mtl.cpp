@@ -117,8 +117,8 @@ void read_options(Words& words, MtlTexture& result, bool name_follows) {
     }
 }
 
-// "-s 2 2 -bm .5 my file.png": options, then the name, which may have blanks or quotes. Some write options, or a
-// comment, behind it.
+// "-s 2 2 -bm .5 my file.png": options, then the name, which may have blanks or quotes. Some programs write options, or
+// a comment, after it.
 MtlTexture read_texture(std::string_view rest, std::uint32_t column) {
     MtlTexture result;
     Words words(rest, column);

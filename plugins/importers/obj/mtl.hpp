@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material library as it was read. Bourke's page on MTL and Alias|Wavefront's manual, appendix B; the PBR statements
+// The contents of a material library. Bourke's page on MTL and Alias|Wavefront's manual, appendix B; the PBR statements
 // are exocortex's.
 #pragma once
 
@@ -25,8 +25,8 @@ struct Mtl {
     std::uint32_t line = 0;
     std::map<std::string, std::uint32_t> lines; // statement in its usual spelling (map_bump is "bump") -> its line
     std::map<std::string, std::array<double, 3>> colors; // Kd, Ks, Ke, Tf, Ka
-    std::map<std::string, double> numbers;               // Ns, Ni, d, illum, Pr, Pm, Ps, Pc, Pcr, aniso, anisor
-    std::map<std::string, MtlTexture> textures;          // map_Kd, ...
+    std::map<std::string, double> numbers; // Ns, Ni, d, illum, Pr, Pm, Ps, Pc, Pcr, aniso, anisor
+    std::map<std::string, MtlTexture> textures; // map_Kd, ...
     std::map<std::string, std::uint32_t> not_understood;
 
     bool has(const char* key) const { return lines.contains(key); }

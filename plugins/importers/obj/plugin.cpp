@@ -11,7 +11,7 @@ static const RestageParam options[] = {
     restage::importing::units_option,
     restage::importing::up_option,
     RESTAGE_BOOL_PARAM("merge", "Merge", 0, 0,
-                       "Faces of one material become one object, whatever objects the file has"),
+                       "All faces of a material become one object, regardless of the file's objects"),
 };
 
 static const RestageImporter1 importer = {

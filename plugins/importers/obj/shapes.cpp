@@ -37,7 +37,7 @@ Vec3 point(const Model& model, int vertex) {
     return {p[0], p[1], p[2]};
 }
 
-Vec3 face_cross(const Model& model, const Corner* corners) { // twice the area long
+Vec3 face_cross(const Model& model, const Corner* corners) { // its length is twice the area
     const Vec3 p = point(model, corners[0].vertex);
     return cross(point(model, corners[1].vertex) - p, point(model, corners[2].vertex) - p);
 }
@@ -189,7 +189,7 @@ void Importer::shape(const Shape& shape) {
     }
 }
 
-// Those that have normals, or coordinates, and those that do not stay apart: a mesh has them for all of its vertices.
+// Triangles with and without normals or coordinates are separated, as a mesh has them for all of its vertices.
 void Importer::gather(MeshBuffer buffer, const MadeMaterial& made, int id, const std::string& name) {
     const std::array<std::uint32_t, 3> key{made.material, !buffer.normals.empty(), !buffer.uvs.empty()};
     const auto [at, fresh] = gathered_at_.try_emplace(key, gathered_.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera, film, pixel filter, sampler and integrator: what stands before WorldBegin.
+// Camera, film, pixel filter, sampler and integrator: the part before WorldBegin.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ void Builder::camera(const Directive& d) {
         throw ImportError{d.at, what + ": its transformation cannot be inverted; check LookAt and Scale before it"};
     std::memcpy(out.camera_to_world, to_world->m.data(), sizeof out.camera_to_world);
     double fov = d.params.number("fov", 90);
-    const double half = d.params.number("halffov", -1); // v3, for exporters that give half of it
+    const double half = d.params.number("halffov", -1); // v3, for exporters that write half of it
     if (half > 0) fov = 2 * half;
     if (d.name == "perspective") {
         if (!(fov > 0 && fov < 180))

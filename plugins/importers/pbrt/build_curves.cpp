@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one state become one instance: hair of 1e5 curves is one thing to select, and one mesh to trace.
+// Curves with the same graphics state become one instance: hair of 1e5 curves is one thing to select, and one mesh to
+// trace.
 #include "builder.hpp"
 
 #include <cmath>

@@ -18,7 +18,8 @@ double Builder::light_scale(const Directive& d, Rgb& color) {
     return 1;
 }
 
-// "=id r g b parameters": what `value` was before it became RGB. The numbers tell the exporter whether it still holds.
+// "=id r g b parameters": what `value` was before it became RGB. The numbers tell the exporter whether it is still
+// valid.
 std::string Builder::exact_light(const Directive& d, const char* id, const char* name, const float (&value)[3],
                                  double scale) {
     const auto reduced = [&](const char* of) {
@@ -105,12 +106,13 @@ void Builder::light(const Directive& d) {
     out.value[1] = static_cast<float>(value.g);
     out.value[2] = static_cast<float>(value.b);
     std::memcpy(out.light_to_world, to_world.m.data(), sizeof out.light_to_world);
-    // For the exporter, and so that a missing one can be relinked. v3 takes it as it is, v4 decodes 8-bit ones.
+    // For the exporter, and so that a missing one can be relinked. v3 uses the raw values, v4 decodes 8-bit ones.
     if (const std::string file = d.params.string(import_.v3() ? "mapname" : "filename", "");
         !file.empty() && (d.name == "goniometric" || d.name == "projection"))
         image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
     std::string verbatim = import_.keep_unused(d.params, what);
-    if (d.name == "goniometric" || d.name == "projection") { // `whole`: all of it, while the colour is unchanged
+    if (d.name == "goniometric" ||
+        d.name == "projection") { // `whole`: the whole light, valid while the colour is unchanged
         std::string numbers;
         for (const float x : out.value)
             numbers += " " + shortest(static_cast<double>(x));
@@ -121,7 +123,7 @@ void Builder::light(const Directive& d) {
     const std::string name = take_name({std::string(next_.label), state_.label, d.name + " light"});
     out.name = name.c_str();
     out.origin = import_.origin(verbatim);
-    if (d.ours) out.flags |= RESTAGE_LIGHT_HIDDEN; // pbrt does not see it
+    if (d.ours) out.flags |= RESTAGE_LIGHT_HIDDEN; // invisible in pbrt
     import_.out.light(import_.out.ctx, &out);
 }
 
@@ -141,7 +143,7 @@ void Builder::infinite_light(const Directive& d) {
     const double illuminance = d.params.number("illuminance", -1);
     RestageHandle pixels = 0;
     if (!file.empty()) {
-        // v3 reads environment images as they are (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
+        // v3 does not decode environment images (infinite.cpp: ReadImage); v4 decodes 8-bit ones as sRGB.
         pixels = image(d, file, import_.v3() ? RESTAGE_LINEAR : RESTAGE_SRGB, 1, true);
         if (illuminance > 0)
             import_.approximated(d.at, what,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: what both versions share. Names decide which version's parameters are meant; for names known to both
+// Materials: the common part of both versions. The name determines which version's parameters apply; for names of both
 // (mix, hair, subsurface), the version of the file does. Defaults are written out, since they differ between versions.
 #include "builder.hpp"
 
@@ -165,7 +165,7 @@ RestageHandle Builder::material(const Directive& d, const std::string& name, con
         for (const Param& param : d.params.params)
             key += '\n' + std::to_string(static_cast<int>(param.color_space));
         for (const Param& param : d.params.params)
-            if (param.type == "texture" && !param.strings.empty()) { // the name may mean another texture by now
+            if (param.type == "texture" && !param.strings.empty()) { // the name may refer to a different texture by now
                 const auto& names = *state_.names;
                 for (const auto* map : {&names.float_textures, &names.color_textures})
                     if (const auto found = map->find(param.strings[0]); found != map->end())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials pbrt does not know but a plugin of the host does: Material "velvet" "float fuzz" 0.5. Parameters have the
-// ids of the plugin's table; others are reported, as usual. So does `"string plugin" "velvet"`, which our
-// exporter writes into a line `#restage MakeNamedMaterial` before the nearest material that pbrt has.
+// Materials unknown to pbrt but provided by a plugin of the host: Material "velvet" "float fuzz" 0.5. Parameters have
+// the ids of the plugin's table; others are reported, as usual. So does `"string plugin" "velvet"`, which our exporter
+// writes into a line `#restage MakeNamedMaterial` before the nearest material that pbrt has.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
                                                  line->choices + " are possible; the default is used instead");
                 }
                 break;
-            case RESTAGE_TABLE: // the host reads it, and reports what is wrong with it
+            case RESTAGE_TABLE: // the host reads it, and reports its errors
                 if (const std::string file = d.params.string(line->id, ""); !file.empty())
                     values.table(line->id, import_.resolve(file, d.at).string());
                 break;
@@ -64,7 +64,7 @@ bool Builder::material_of_plugin(const Directive& d, const std::string& type, Va
         }
     }
     if (ours) return true;
-    if (type == "hair") { // pbrt's own, which may give its colour differently
+    if (type == "hair") { // pbrt's own, which may specify its colour differently
         if (d.params.has("reflectance")) {
             put_color(values, "color", d, "reflectance", Role::albedo, {0.5, 0.5, 0.5});
         } else if (!d.params.has("color")) {

@@ -20,7 +20,7 @@ void Builder::missing_files_of(const Directive& d, const std::string& what) {
 void Builder::medium(const Directive& d) {
     const std::string what = "medium " + quote(d.name);
     const std::string type = d.params.string("type", "homogeneous");
-    if (type != "homogeneous") { // clear, and written back verbatim
+    if (type != "homogeneous") { // rendered as clear, and written back verbatim
         std::string whole;
         for (const Param& param : d.params.params)
             whole += "=* " + to_text(param) + "\n";
@@ -31,7 +31,7 @@ void Builder::medium(const Directive& d) {
         missing_files_of(d, what);
         return;
     }
-    // pbrt's default is whole milk; the numbers are per millimetre and taken as they are (the scene's unit).
+    // pbrt's default is whole milk; the numbers are per millimetre and used unscaled (in the scene's unit).
     Rgb absorption = medium_preset(default_medium)->absorption, scattering = medium_preset(default_medium)->scattering;
     const std::string preset = d.params.string("preset", "");
     if (!preset.empty()) {

@@ -5,9 +5,10 @@
 //                              before an AttributeBegin: the contents of that block
 //   # mesh: "cup mesh"         the mesh of the next shape, if its name differs
 //   # names: "cup" "saucer"    the members of the next ObjectInstance, if the object names them differently
-//   # alone: "cup 2"           the next ObjectInstance is one thing, no group
+//   # alone: "cup 2"           the next ObjectInstance is a single thing, not a group
 //   # group: "kitchen" "table" the rest of this block is in these groups, outermost first
-// Foreign comments are guessed at: "# Name: cup", "# Object cup", or a few words before the thing or its block.
+// Comments of other programs are interpreted heuristically: "# Name: cup", "# Object cup", or a few words before the
+// thing or its block.
 #include "builder.hpp"
 #include "lexer.hpp"
 
@@ -50,7 +51,7 @@ std::vector<std::string> quoted_strings(std::string_view text) {
     return out;
 }
 
-// Is it words for people, such as "left wall", and not a sentence, a ruler or commented-out pbrt text?
+// Whether it is a human-readable label, such as "left wall", and not a sentence, a ruler or commented-out pbrt text.
 std::string guessed_label(std::string_view comment) {
     std::string_view text = trimmed(comment, " \t\r#-=*/_:");
     const std::size_t key_end = text.find_first_of(" \t:=");
@@ -107,7 +108,7 @@ RestageHandle Builder::group_at(const std::vector<std::string>& path) {
     return group;
 }
 
-// Before the directive runs. A block takes the words before it as the label of its contents.
+// Called before the directive runs. A block uses the words before it as the label of its contents.
 void Builder::read_comments(const Directive& d) {
     std::string label;
     for (const std::string_view comment : d.comments) {
@@ -151,7 +152,7 @@ void Builder::read_comments(const Directive& d) {
         case Verb::world_begin:
             next_ = {};
             return;
-        case Verb::make_named_material: // comments there are about the contents
+        case Verb::make_named_material: // comments there describe the contents
         case Verb::make_named_medium:
         case Verb::texture:
             return;

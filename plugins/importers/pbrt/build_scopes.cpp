@@ -65,7 +65,7 @@ void Builder::pop(const Directive& directive, bool only_transform) {
 }
 
 // pbrt-v3 keeps two stacks: AttributeBegin puts onto both, TransformBegin onto that of transforms. A mismatched End
-// takes the top of its own.
+// pops its own stack.
 void Builder::pop_v3(const Directive& directive) {
     Saved& top = stack_.back();
     import_.warned(directive.at, directive.word,
@@ -88,7 +88,7 @@ void Builder::pop_v3(const Directive& directive) {
     state_.ctm[0] = ctm[0];
     state_.ctm[1] = ctm[1];
     state_.active = active;
-    // What remains of the two is the transform of the AttributeBegin.
+    // The transform of the AttributeBegin remains.
     attributes->opened = inner;
     attributes->state.ctm[0] = below[0];
     attributes->state.ctm[1] = below[1];

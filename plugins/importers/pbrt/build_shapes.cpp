@@ -17,7 +17,7 @@ std::string stem_of(const std::string& file) { // "models/cup.ply.gz" -> "cup"
     return stem;
 }
 
-// The shape as in the file, without what the instance holds of it.
+// The shape as in the file, without the part stored in the instance.
 std::string shape_line(const Directive& d, bool v3) {
     std::string line = "Shape " + quote(d.name);
     for (const Param& param : d.params.params) {
@@ -28,7 +28,7 @@ std::string shape_line(const Directive& d, bool v3) {
     return line;
 }
 
-// The broken shapes that pbrt skips with a message, or never hits. Others make it stop.
+// The broken shapes that pbrt skips with a message, or never hits. It stops at others.
 bool goes_on_without(const std::string& shape, bool v3) {
     for (const char* quadric : {"sphere", "disk", "cylinder", "cone", "paraboloid", "hyperboloid"})
         if (shape == quadric) return true;
@@ -256,7 +256,7 @@ RestageInstance Builder::instance_of(const Directive& d, const Matrix& to_world)
     if (d.params.has("shadowalpha"))
         import_.approximated(d.at, "\"shadowalpha\" of Shape " + quote(d.name),
                              "shadows use \"alpha\"; written back as it is");
-    // Which side is outside. The host transforms the object-space normal by the inverse transpose, which keeps it
+    // The outside. The host transforms the object-space normal by the inverse transpose, which keeps it
     // outside under a mirror, and negates it for REVERSE_ORIENTATION. pbrt takes cross(e1, e2) in world space and flips
     // it if ReverseOrientation xor (the transform swaps handedness); but a world-space cross product has flipped once
     // already when handedness is swapped (cross(M a, M b) = det(M) M^-T cross(a, b)), so the two cancel and
@@ -283,7 +283,7 @@ void Builder::place(RestageInstance instance, const std::string& name, const std
         return;
     }
     Object& object = objects_[open_object_];
-    instance.name = object.names.emplace_back(name).c_str(); // its origin lives as long as the import
+    instance.name = object.names.emplace_back(name).c_str(); // its origin is valid during the import
     object.instances.push_back(instance);
     object.named_by_itself = own_name_;
 }
@@ -297,7 +297,7 @@ void Builder::end_object() {
     open_object_.clear();
 }
 
-// Returns the verbatim line of what its light was before it became RGB.
+// Returns the verbatim line of its light before it became RGB.
 std::string Builder::emission(const Directive& shape, const Mesh& mesh, RestageInstance& instance) {
     const Directive& d = *state_.area_light;
     const auto no_light = [&](const std::string& what, const char* why) {

@@ -15,7 +15,7 @@ namespace {
 // Inhomogeneous Materials", 1979, as in Jensen et al. 2001 (after Eq. 6).
 double internal_reflectance(double eta) { return -1.440 / (eta * eta) + 0.710 / eta + 0.668 + 0.0636 * eta; }
 
-// Share of diffuse light that a half space of this albedo sends back: Jensen et al. 2001, Eq. 15.
+// Fraction of diffuse light that a half space of this albedo reflects: Jensen et al. 2001, Eq. 15.
 double diffuse_reflectance(double absorption, double reduced_scattering, double eta) {
     const double extinction = absorption + reduced_scattering;
     const double albedo = extinction > 0 ? reduced_scattering / extinction : 1;
@@ -32,7 +32,7 @@ double base_under_coat(double all, double eta) {
 
 } // namespace
 
-// The share of entering light that leaves again, as a colour or a texture.
+// The fraction of entering light that leaves again, as a colour or a texture.
 Argument Builder::subsurface_reflectance(const Directive& d, const std::string& type, double eta) {
     const Rgb half{0.5, 0.5, 0.5};
     if (type == "kdsubsurface") return color_argument(d, "Kd", Role::albedo, half);

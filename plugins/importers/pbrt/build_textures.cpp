@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures and arguments that may be textures. Images are named to the host, which reads them.
+// Textures and arguments that may be textures. Images are passed by name to the host, which reads them.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string lower_extension(const std::string& file) {
     return out;
 }
 
-// The table of a plugin of the host's for this type of texture; null: there is none.
+// The table of the host's plugin for this type of texture; null if there is none.
 const RestageParam* texture_table(const RestageSceneWriter1& out, const std::string& type, std::uint32_t& count) {
     count = 0;
     if (out.size < offsetof(RestageSceneWriter1, texture_table) + sizeof out.texture_table || !out.texture_table)
@@ -105,7 +105,7 @@ void Builder::put_color(Values& values, const char* id, const Directive& d, cons
         values.color(id, argument.value);
 }
 
-// A spectrum, a temperature or a colour of another space is written back as it came, unless its value is edited.
+// A spectrum, a temperature or a colour of another space is written back unchanged, unless its value is edited.
 void Builder::keep_exact(const char* id, const Directive& d, const char* name) {
     if (!d.params.has(name)) return;
     const Param& param = *d.params.find(name);
@@ -141,7 +141,7 @@ RestageHandle Builder::image(const Directive& d, const std::string& file, Restag
                        .encoding = static_cast<std::uint32_t>(encoding),
                        .gamma = gamma};
     handle = import_.out.image(import_.out.ctx, &image);
-    if (!as_written.empty()) { // pbrt-v3 puts a texel of 0.5 in its place, and decodes it (imagemap.cpp, GetTexture)
+    if (!as_written.empty()) { // pbrt-v3 replaces it by a texel of 0.5, and decodes that (imagemap.cpp, GetTexture)
         constexpr double decoded = 0.21404114; // of sRGB
         missing_texels_[handle] = encoding == RESTAGE_SRGB    ? decoded
                                   : encoding == RESTAGE_GAMMA ? std::pow(0.5, static_cast<double>(gamma))
@@ -205,10 +205,10 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     const Rgb zero{0, 0, 0}, one{1, 1, 1}, half{0.5, 0.5, 0.5};
     const std::string what = "Texture " + quote(d.name);
     Values values;
-    std::string kept; // what the renderer cannot show
+    std::string kept; // not supported by the renderer
     bool placed = false; // depends on the transform it is defined in
     std::uint32_t count = 0;
-    const bool cubes = d.third == "checkerboard" && d.params.integer("dimension", 2) == 3; // a type of its own here
+    const bool cubes = d.third == "checkerboard" && d.params.integer("dimension", 2) == 3; // a separate type here
     const std::string own_type = cubes ? "checkerboard3d" : d.third;
     const RestageParam* const table = texture_table(import_.out, own_type, count);
     const bool type_is_rendered =
@@ -286,7 +286,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
     } else if (type == "checkerboard" && !cubes) {
         if (const int n = d.params.integer("dimension", 2); n != 2)
             import_.warned(d.at, what,
-                           "a checkerboard has the dimension 2 or 3, not " + std::to_string(n) + "; 2 is taken");
+                           "a checkerboard's dimension must be 2 or 3, not " + std::to_string(n) + "; 2 is taken");
         put("tex1", "tex1", one);
         put("tex2", "tex2", zero);
         put_mapping();
@@ -368,7 +368,7 @@ RestageHandle Builder::simple_texture(const Directive& d, bool is_float) {
         if (!kept.empty()) kept += '\n';
         missing_files_of(d, what);
     }
-    if (placed && !(ctm(d) == Matrix{})) { // of no version
+    if (placed && !(ctm(d) == Matrix{})) { // of neither version
         kept += "Transform [";
         for (const double m : state_.ctm[0].m)
             kept += " " + shortest(m);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each directive does to the graphics state, and which function makes a thing of it. The stack of states is
-// build_scopes.cpp's.
+// The effect of each directive on the graphics state, and dispatch to the functions that build things. The stack of
+// states is in build_scopes.cpp.
 #include "builder.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ void Builder::finish(const SceneFile& scene) {
     flush_environment();
 }
 
-// A missing Include or Import. Before WorldBegin it can only hold settings; after it, it keeps its
+// A missing Include or Import. Before WorldBegin it can only contain settings; after it, it keeps its
 // place.
 void Builder::missing_file(const Directive& d) {
     import_.lost(d.at, d.word + " " + quote(d.name), d.third + ": " + d.second + "; its place is kept");
@@ -154,7 +154,7 @@ void Builder::option_step(Directive& d) {
             integrator_ = &d;
             break;
         case Verb::camera:
-            if (d.ours) { // a further one, behind the active one
+            if (d.ours) { // an additional, inactive one
                 camera(d);
                 break;
             }
@@ -172,7 +172,7 @@ void Builder::option_step(Directive& d) {
             else
                 import_.kept(d.at, "Option " + quote(d.name), "pbrt's own; written back as it is");
             break;
-        default: // Accelerator, TransformTimes: nothing the picture shows
+        default: // Accelerator, TransformTimes: no effect on the picture
             if (d.verb == Verb::accelerator && !pbrt_has(d.verb, d.name, import_.v3())) {
                 import_.warned(d.at, "Accelerator " + quote(d.name), "pbrt has none of that name; left out");
                 break;

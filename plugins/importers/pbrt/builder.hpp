@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks the directives with pbrt's graphics state and pushes the scene to the host. Each kind of thing has a file of
-// its own (build_*.cpp).
+// Walks the directives with pbrt's graphics state and pushes the scene to the host. Each kind of thing has its own file
+// (build_*.cpp).
 #pragma once
 
 #include "curves.hpp"
@@ -110,7 +110,7 @@ class Builder {
 
     // build_shapes.cpp
     void shape(const Directive& directive);
-    // Unreadable things stay: a mesh without triangles that stands in for these lines, and an instance of it.
+    // Unreadable things are kept: a mesh without triangles that represents these lines, and an instance of it.
     RestageHandle missing_mesh(const std::string& name, const std::string& line, const std::string& file = "");
     void placeholder(const Directive& directive, const std::string& name, const std::string& line,
                      const std::string& file = "");
@@ -159,22 +159,22 @@ class Builder {
     std::map<std::string, const Directive*> later_materials_; // v4: NamedMaterial may come first
     std::set<std::string> materials_of_plugins_; // defined by such a line; pbrt's own of that name is skipped
     std::set<std::string> made_materials_, made_media_; // ahead of their line
-    int material_depth_ = 0;                                  // of mixes made ahead
+    int material_depth_ = 0; // of mixes made ahead
     std::map<std::string, RestageHandle> media_;
     std::map<std::string, const Directive*> later_media_; // v4: MediumInterface may come first
     std::map<std::pair<std::string, bool>, const Directive*> later_textures_; // v4: by name and "is of floats"
     std::set<std::pair<std::string, bool>> made_textures_; // ahead of their line
     int texture_depth_ = 0; // of textures made ahead
-    std::map<RestageHandle, double> missing_texels_; // missing images: what pbrt-v3 puts in their place
+    std::map<RestageHandle, double> missing_texels_; // missing images: pbrt-v3's replacement
     bool files_are_missing_ = false; // missing Include and Import: what they define is kept by name
-    std::set<RestageHandle> interfaces_; // materials without a surface
-    std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 knows lamps of such an alpha
+    std::set<RestageHandle> interfaces_; // null surfaces
+    std::set<RestageHandle> zero_textures_; // constants of 0: pbrt-v4 has lamps with such an alpha
     std::set<RestageHandle> hair_;
 
     struct Object {
         std::vector<RestageInstance> instances;
         std::deque<std::string> names;
-        bool named_by_itself = false; // its only member has a name of its own
+        bool named_by_itself = false; // its only member has its own name
     };
     std::map<std::string, Object> objects_;
 
@@ -194,7 +194,7 @@ class Builder {
     std::map<std::string, RestageHandle> images_, materials_by_content_;
     std::map<std::pair<RestageHandle, double>, RestageHandle> scaled_textures_;
     std::map<RestageHandle, Rgb> constants_; // textures of one colour
-    std::string exact_; // "=id parameter" lines: what a value was before it became RGB
+    std::string exact_; // "=id parameter" lines: a value before it became RGB
     RestageHandle default_material_ = 0;
     std::map<RestageHandle, std::string> material_names_; // of named ones
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pbrt-v4 book, sec. 6.7 (and pbrt-v3 book, sec. 3.7) for what the parameters mean: curves of several segments, of
+// Parameters as in the pbrt-v4 book, sec. 6.7 (and pbrt-v3 book, sec. 3.7): curves of several segments, of
 // degree 2 and 3, in Bezier or uniform B-spline form, widths interpolated from segment to segment.
 #include "curves.hpp"
 
@@ -74,12 +74,12 @@ std::vector<Vec3> triples(const Param* param, const Directive& shape) {
     return out;
 }
 
-Vec3 any_across(Vec3 along) { // some unit vector at a right angle
+Vec3 any_across(Vec3 along) { // a perpendicular unit vector
     const Vec3 axis = std::abs(along.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     return normalize(cross(along, axis));
 }
 
-// Between unit normals, as pbrt turns ribbons: spherical interpolation.
+// Spherical interpolation between unit normals, as for pbrt's ribbons.
 Vec3 slerp(Vec3 a, Vec3 b, double t) {
     const double angle = std::acos(std::clamp(dot(a, b), -1.0, 1.0));
     if (!(angle > 1e-4)) return normalize(mix(a, b, t));
@@ -189,7 +189,8 @@ Vec3 CurveBatch::point(std::size_t i) const {
     return {double(points_[3 * i]), double(points_[3 * i + 1]), double(points_[3 * i + 2])};
 }
 
-// A cubic in k even pieces is off its chords by at most 3/4 of its largest second difference over k^2 (Wang 1984).
+// A cubic in k equal pieces deviates from its chords by at most 3/4 of its largest second difference over k^2 (Wang
+// 1984).
 std::uint32_t CurveBatch::pieces(const Strand& strand, std::uint32_t segment, double error) const {
     const std::size_t i = strand.first_point + 3 * std::size_t(segment);
     const Vec3 p[4] = {point(i), point(i + 1), point(i + 2), point(i + 3)};
@@ -230,13 +231,14 @@ Mesh CurveBatch::tessellate(int& sides, double& error) const {
 }
 
 void CurveBatch::tube(const Strand& strand, int sides, double error, Mesh& mesh) const {
-    // The mean width of a convex shape's shadow is its perimeter over pi (Cauchy); of a regular n-gon: 2 n r sin(pi/n).
+    // The mean projected width of a convex shape is its perimeter over pi (Cauchy); of a regular n-gon: 2 n r
+    // sin(pi/n).
     const double pi = std::numbers::pi, radius_of_width = pi / (2 * sides * std::sin(pi / sides));
     Vec3 across;
     bool first = true;
     const auto ring = [&](const Bezier& curve, double t, double u) {
         const Vec3 centre = curve.at(t), along = curve.along(t);
-        // The frame is carried along and not turned about the curve.
+        // The frame is transported without rotation about the curve.
         Vec3 carried = across - along * dot(across, along);
         across = first || !(dot(carried, carried) > 1e-12) ? any_across(along) : normalize(carried);
         first = false;

@@ -16,11 +16,11 @@ class CurveBatch {
     // `to_batch`: from the curve's frame to the batch's; must be a similarity. Throws ImportError for an invalid curve.
     void add(const Directive& shape, const Matrix& to_batch);
     std::size_t size() const { return strands_.size(); }
-    std::size_t coincident() const { return coincident_; } // left out: they lie on others
+    std::size_t coincident() const { return coincident_; } // skipped duplicates
     // Triangles of all of them; the more there are, the coarser each is. `error`: largest distance of a tube's axis
     // from the curve, in widths of the curve.
     Mesh tessellate(int& sides, double& error) const;
-    // A line `curve "point3 P" [...] ...` each, "" if there are too many to keep.
+    // One line `curve "point3 P" [...] ...` each, "" if there are too many to keep.
     const std::string& text() const { return text_; }
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene file as a flat list of directives: syntax checked, Include and Import resolved, nothing interpreted yet. The
-// list exists because defaults depend on the version of pbrt, and the last line alone may reveal the version.
+// list exists because defaults depend on the version of pbrt, and possibly only the last line reveals the version.
 #pragma once
 
 #include "params.hpp"
@@ -65,7 +65,7 @@ struct Directive {
     std::string second, third;      // Texture: value type and class; MediumInterface: exterior; Option: value
     std::vector<double> numbers;    // of transforms
     ParamList params;
-    std::vector<std::string_view> comments; // on lines of their own before it, without the '#'
+    std::vector<std::string_view> comments; // on separate lines before it, without the '#'
     bool ours = false; // of a line `#restage ...`: a comment to pbrt
 };
 
@@ -78,16 +78,16 @@ struct SceneFile {
 };
 
 // Parses file 0 of `sources` and what it includes; throws ImportError. `folder`: of the main file, where pbrt looks for
-// everything the scene names. `goes_on` is called now and then; if it returns false, parsing stops and returns nullopt.
+// everything the scene names. `goes_on` is called regularly; if it returns false, parsing stops and returns nullopt.
 std::optional<SceneFile> parse(Sources& sources, const std::filesystem::path& folder,
                                const std::function<bool()>& goes_on);
 
-// Is there a Sampler, Integrator or Accelerator of that name? Others are v2's, or typos; pbrt stops at them.
+// Whether there is a Sampler, Integrator or Accelerator of that name. Others are v2's, or typos; pbrt stops at them.
 bool pbrt_has(Verb kind, std::string_view name, bool v3);
 
 bool is_directive(std::string_view word);
 
-// pbrt-v3 or v4, by what only one of them knows; v4 if there is no evidence. `evidence` is one sentence of proof.
+// pbrt-v3 or v4, by features of only one of them; v4 if there is no evidence. `evidence` is one sentence of proof.
 Version detect_version(const SceneFile& scene, const Sources& sources, std::string& evidence);
 
 } // namespace restage::pbrt

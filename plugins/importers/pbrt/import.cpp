@@ -178,7 +178,7 @@ std::optional<Spectrum> Import::read_spectrum(const std::string& name, Location 
     return black();
 }
 
-// pbrt-v3 leaves out a last number without a partner, and sorts (paramset.cpp, spectrum.cpp).
+// pbrt-v3 ignores a last number without a partner, and sorts (paramset.cpp, spectrum.cpp).
 void Import::mend_pairs(Location at, const std::string& what, std::vector<double>& numbers) {
     if (numbers.size() % 2 != 0) {
         numbers.pop_back();
@@ -236,7 +236,7 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
     if (!params.has(name)) return std::nullopt;
     const Param* param = params.find(name);
     if (param->type == "texture") return std::nullopt;
-    if (params.lenient) { // pbrt-v3 knows a parameter by its type as well; of three numbers it takes whole colours
+    if (params.lenient) { // pbrt-v3 identifies a parameter by its type as well; it reads colours in complete triples
         const bool spectrum_type = param->type == "spectrum";
         const bool rgb = param->type == "rgb" || param->type == "color" || param->type == "xyz";
         const std::size_t needed = rgb ? 3 : 1;
@@ -263,7 +263,8 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
     if (param->type == "blackbody") {
         need(1, "a temperature [K]");
         const Spectrum emitted = blackbody(param->numbers[0]);
-        // v3 takes temperature and scale, relative to a peak of 1; v4 makes the light's luminance 1, scale comes apart.
+        // v3 has temperature and scale, relative to a peak of 1; v4 makes the light's luminance 1, its scale is
+        // separate.
         const double scale = param->numbers.size() > 1 ? param->numbers[1] : 1;
         if (v3()) return limited(rgb_equal_energy(emitted) * scale, *param, Role::light);
         return limited((role == Role::light ? rgb_of_light(emitted) : rgb_of_reflectance(emitted)) * scale, *param,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all parts of one import share: the host's writer, the report, the version's conventions, where files are found,
-// and colours. It does not know directives.
+// Shared by all parts of an import: the host's writer, the report, the version's conventions, file lookup, and colours.
+// Independent of directives.
 #pragma once
 
 #include "directives.hpp"
@@ -64,7 +64,7 @@ class Import {
     // those that only pbrt understands.
     std::string keep_unused(const ParamList& params, const std::string& what, bool quiet = false);
 
-    // Resolves a path: beside the main file, else beside the file that names it. Absolute; may not exist.
+    // Resolves a path: relative to the main file, else to the file that names it. Absolute; may not exist.
     std::filesystem::path resolve(const std::string& name, Location at) const;
 
     // Makes existing files' paths absolute: verbatim lines are written elsewhere.

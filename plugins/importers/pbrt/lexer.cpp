@@ -170,7 +170,7 @@ bool Lexer::number(double& value) {
         frame.at = stop;
         return true;
     }
-    value = number_in(scan()); // reports what is wrong with it
+    value = number_in(scan()); // reports the error
     return true;
 }
 

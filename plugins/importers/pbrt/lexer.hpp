@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens of pbrt scene files, each with its place, over a stack of included files. Does not know directives.
-// Lines that start with `#restage ` are comments to pbrt and text to this lexer: what Restage keeps and pbrt cannot
-// express.
+// Tokens of pbrt scene files, each with its place, over a stack of included files. Independent of directives.
+// Lines that start with `#restage ` are comments to pbrt and text to this lexer: things that Restage keeps and pbrt
+// cannot express.
 #pragma once
 
 #include "source.hpp"
@@ -35,7 +35,7 @@ class Lexer {
     void push(std::uint32_t file, bool included = false);
     void pop() { frames_.pop_back(); }
     std::size_t depth() const { return frames_.size(); }
-    // Is `name` being read already, here or further up? (an Include cycle)
+    // Whether `name` is already being read, here or further up (an Include cycle).
     bool is_open(const std::string& name) const;
 
     // end_of_file is returned again and again until pop().
@@ -43,11 +43,11 @@ class Lexer {
     const Token& peek();
     // If the next token is a number, takes it: the fast way through long arrays. Throws on NaN and overflow.
     bool number(double& value);
-    // The number a word begins with, as pbrt takes it (strtof): the rest, as in "0," or "1.2.3", is a typo.
+    // The number at the start of a word, as read by pbrt (strtof): the rest, as in "0," or "1.2.3", is a typo.
     double number_in(const Token& word);
     std::vector<Slip> take_slips() { return std::move(slips_); }
     Location here();
-    // Comments on lines of their own, without the '#', since they were last taken; the next token's included if it was
+    // Comments on separate lines, without the '#', since the last call; the next token's included if it was
     // peeked at.
     std::vector<std::string_view> take_comments() { return std::exchange(comments_, {}); }
     void forget_comments() { comments_.clear(); }
@@ -59,7 +59,7 @@ class Lexer {
         const char* end = nullptr;
         const char* line_start = nullptr;
         std::uint32_t line = 1;
-        const char* ours_from = nullptr; // behind the last `#restage `, while its line lasts
+        const char* ours_from = nullptr; // after the last `#restage `, until the end of its line
         bool included = false;
     };
     bool leave_included(); // at its end: the enclosing frame continues
@@ -78,9 +78,9 @@ class Lexer {
     std::vector<Slip> slips_;
 };
 
-// A number in full, as pbrt reads it ("+1", "1.", ".5", "1e-3"); throws ImportError with the remedy.
+// A complete number, as read by pbrt ("+1", "1.", ".5", "1e-3"); throws ImportError with the remedy.
 double parse_number(std::string_view text, Location at);
 
-std::string unescape(std::string_view text); // pbrt's \\n, \\t, \\", ...; other backslashes stay as they are
+std::string unescape(std::string_view text); // pbrt's \\n, \\t, \\", ...; other backslashes are unchanged
 
 } // namespace restage::pbrt

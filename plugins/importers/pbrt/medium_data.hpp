@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The media that pbrt knows by name, for MakeNamedMedium "preset" and Material "subsurface" "name".
+// pbrt's named media, for MakeNamedMedium "preset" and Material "subsurface" "name".
 #pragma once
 
 #include "spectrum.hpp"

@@ -9,8 +9,8 @@
 namespace restage::pbrt {
 
 struct Mesh {
-    std::vector<float> positions, normals, uvs; // 3, 3 and 2 a vertex; the last two may be empty
-    std::vector<std::uint32_t> indices; // 3 a triangle
+    std::vector<float> positions, normals, uvs; // 3, 3 and 2 per vertex; the last two may be empty
+    std::vector<std::uint32_t> indices; // 3 per triangle
     std::size_t vertex_count() const { return positions.size() / 3; }
     std::size_t triangle_count() const { return indices.size() / 3; }
     bool has_bent_quads = false; // polygons that were not flat before they were split

@@ -21,8 +21,8 @@ struct Param {
     ColorSpace color_space = ColorSpace::srgb;
     bool from_attribute = false; // an `Attribute` default: may go unused
     mutable bool used = false;
-    mutable bool misfit = false; // looked up, but of the wrong kind: the default was taken
-    mutable std::string should_be; // v4: its value was taken, though pbrt requires this type, and stops
+    mutable bool misfit = false; // looked up, but of the wrong kind: the default was used
+    mutable std::string should_be; // v4: its value was used, though pbrt requires this type, and stops
 };
 
 class ParamList {
@@ -48,16 +48,17 @@ class ParamList {
     // Integers in [lowest, highest]; throws naming the first that is not.
     std::vector<std::uint32_t> indices(std::string_view name, std::size_t bound) const;
 
-    // For a parameter that was found: is it of that type? Lenient: if not, it is absent. Else the mismatch is noted.
+    // For an existing parameter: whether it has that type. Lenient: if not, it counts as absent. Else the mismatch is
+    // noted.
     bool typed(const Param& param, std::string_view type) const;
-    // For a parameter that was found: `fits`, or it is an error, or (lenient) taken for absent.
+    // For an existing parameter: `fits`, or it is an error, or (lenient) counts as absent.
     bool taken(const Param& param, bool fits, const std::string& expected) const;
     void mark_all_used() const;
     // Each unused parameter, except Attribute defaults.
     void each_unused(const std::function<void(const Param&)>& visit) const;
 };
 
-// Does anything in pbrt-v3 or v4 have a parameter of that name?
+// Whether anything in pbrt-v3 or v4 has a parameter of that name.
 bool is_pbrt_parameter(std::string_view name);
 
 // `"float radius" [ 1 ]`, numbers in the shortest form that reads back the same.

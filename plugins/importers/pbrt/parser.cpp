@@ -62,7 +62,7 @@ const std::unordered_map<std::string_view, Rule>& rules() {
         {"Translate", {Verb::translate, Shape::numbers, 3}},
         {"WorldBegin", {Verb::world_begin, Shape::bare}},
         {"WorldEnd", {Verb::world_end, Shape::bare}},
-        // pbrt-v1 and v2, still found in the wild.
+        // pbrt-v1 and v2, still in use.
         {"SearchPath", {Verb::ignored, Shape::name}},
         {"Exterior", {Verb::ignored, Shape::name_params}},
         {"Interior", {Verb::ignored, Shape::name_params}},
@@ -212,7 +212,7 @@ class Parser {
     Param param(const Token& declaration) {
         Param out;
         out.at = declaration.at;
-        lexer_.forget_comments(); // between parameters they do not label what follows
+        lexer_.forget_comments(); // between parameters they are not labels
         const std::string_view blanks = " \t";
         const std::string_view all = declaration.text;
         const auto begin = all.find_first_not_of(blanks);
@@ -279,7 +279,7 @@ class Parser {
         namespace fs = std::filesystem;
         fs::path path = fs::path(directive.name);
         std::error_code code;
-        if (path.is_relative()) { // pbrt: beside the main file; we also look beside the including one
+        if (path.is_relative()) { // pbrt: in the main file's folder; here also in the including file's
             const fs::path beside = fs::path(sources_.name(directive.at.file)).parent_path() / path;
             path = folder_ / path;
             if (!fs::exists(path, code) && fs::exists(beside, code)) path = beside;
@@ -316,7 +316,7 @@ class Parser {
     const std::function<bool()>& goes_on_;
     Lexer lexer_;
     SceneFile scene_;
-    std::vector<std::string_view> carried_; // before an Include: they are about its contents
+    std::vector<std::string_view> carried_; // before an Include: they describe its contents
     std::vector<std::size_t> imports_; // depths of the frames that Import opened
 };
 

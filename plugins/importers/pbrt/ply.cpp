@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY files as pbrt reads them: vertices, normals, uv and faces, nothing else.
+// PLY files as in pbrt: only vertices, normals, uv and faces.
 #include "common/ply.hpp"
 #include "mesh.hpp"
 

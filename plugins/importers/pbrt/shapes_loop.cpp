@@ -159,7 +159,7 @@ Mesh make_loop(Import& import, const Directive& shape) {
     const int levels = shape.params.integer(shape.params.has("levels") ? "levels" : "nlevels", 3);
     const std::vector<double>* p = shape.params.numbers("P");
     if (!p || p->empty() || p->size() % 3 != 0)
-        throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"point3 P\", three numbers a vertex"};
+        throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"point3 P\", three numbers per vertex"};
     const auto indices = shape.params.indices("indices", p->size() / 3);
     if (indices.empty() || indices.size() % 3 != 0)
         throw ImportError{shape.at, "Shape \"loopsubdiv\" needs \"integer indices\", three a face"};

@@ -9,7 +9,7 @@ namespace restage::pbrt {
 
 namespace {
 
-// `width` numbers a vertex; throws if the count does not divide or a value does not fit a float.
+// `width` numbers per vertex; throws if the count is not a multiple or a value does not fit a float.
 std::vector<float> vertex_array(Import& import, const Directive& shape, const char* name, std::size_t width) {
     const Param* param = shape.params.has(name) ? shape.params.find(name) : nullptr;
     std::vector<float> out;
@@ -28,7 +28,7 @@ std::vector<float> vertex_array(Import& import, const Directive& shape, const ch
     if (!param->strings.empty() || !param->bools.empty() || param->numbers.size() % width != 0)
         throw ImportError{param->at,
                           "\"" + param->name + "\" of Shape \"" + shape.name + "\" needs " + std::to_string(width) +
-                              " numbers a vertex; " + std::to_string(param->numbers.size()) + " are given",
+                              " numbers per vertex; " + std::to_string(param->numbers.size()) + " are given",
                           true};
     out.reserve(param->numbers.size());
     for (const double value : param->numbers) {

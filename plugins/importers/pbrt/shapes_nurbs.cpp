@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// NURBS surfaces of pbrt-v3, diced as pbrt-v3 dices them (nurbs.cpp: 30 x 30 points, even in the parameters), so that
-// the triangles are its own. Basis functions: Piegl and Tiller 1997, "The NURBS Book", Eqs. 2.5 and 2.7.
+// NURBS surfaces of pbrt-v3, diced as in pbrt-v3 (nurbs.cpp: 30 x 30 points, uniform in the parameters), so that
+// the triangles are the same. Basis functions: Piegl and Tiller 1997, "The NURBS Book", Eqs. 2.5 and 2.7.
 #include "mesh.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ Basis basis(const Direction& d, double t) {
     const auto knot = [&](std::ptrdiff_t i) { return d.knots[static_cast<std::size_t>(i)]; };
     Basis out;
     out.first = static_cast<int>(span) - d.order + 1;
-    std::vector<double> lower, n{1}; // of one degree less
+    std::vector<double> lower, n{1}; // of the next lower degree
     for (std::size_t degree = 1; degree < order; ++degree) {
         lower = n;
         n.assign(degree + 1, 0);

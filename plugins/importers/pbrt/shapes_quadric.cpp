@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Quadrics as triangle grids over pbrt's own (u, v), with its normals dp/du x dp/dv. pbrt-v4 book ch. 6; cone,
-// paraboloid and hyperboloid: pbrt-v3 book ch. 3. pbrt clamps and sorts the parameters as is done here. Spheres, disks
+// paraboloid and hyperboloid: pbrt-v3 book ch. 3. Parameters are clamped and sorted as in pbrt. Spheres, disks
 // and cylinders are rendered exactly (RestageMesh::primitive); their grids are for picking and bounds.
 #include "mesh.hpp"
 

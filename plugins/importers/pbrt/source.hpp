@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of the files an import reads, and places in it. Files are mapped or inflated once and live until the import
-// ends, so that tokens can be views. ImportError is the one exception of this plugin; it never leaves it.
+// The text of the files an import reads, and places in it. Files are mapped or inflated once and kept until the end of
+// the import, so that tokens can be views. ImportError is the one exception of this plugin; it never leaves it.
 #pragma once
 
 #include "common/bytes.hpp"
@@ -21,7 +21,7 @@ struct Location {
     std::uint32_t line = 0, column = 0; // 1-based; 0 = the file as a whole
 };
 
-struct Slip { // what pbrt warns of, or accepts silently, and continues
+struct Slip { // pbrt warns, or accepts it silently, and continues
     Location at;
     std::string what, note;
     bool only_v3 = false; // v4 stops there
@@ -30,7 +30,7 @@ struct Slip { // what pbrt warns of, or accepts silently, and continues
 struct ImportError { // "my format, but malformed"
     Location at;
     std::string message; // what is wrong and what to do about it
-    bool stops_pbrt = false; // even within a shape that pbrt would otherwise leave out
+    bool stops_pbrt = false; // even within a shape that pbrt would otherwise skip
 };
 
 using importing::FileBytes;

@@ -39,7 +39,7 @@ Rgb rgb_of_light(const Spectrum& emitted);
 Rgb rgb_of_reflectance(const Spectrum& reflectance);
 double luminance_mean(const Spectrum& spectrum); // weighted with y-bar: the index of a dispersive glass
 
-// Colours given in another space (directive ColorSpace). Lights keep their chromaticity; reflectances are adapted to
+// Colours in another space (directive ColorSpace). Lights keep their chromaticity; reflectances are adapted to
 // D65 (Bradford), so that white stays white.
 Rgb to_srgb(Rgb color, ColorSpace space, bool adapt_white);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pbrt a scene was written for. Each name or form that only one version has is a vote; v4 wins a draw.
+// Detects the pbrt version of a scene. Each name or form of only one version is a vote; v4 wins a draw.
 #include "directives.hpp"
 
 #include <algorithm>
@@ -163,7 +163,7 @@ Version detect_version(const SceneFile& scene, const Sources& sources, std::stri
             count(by_param(directive, param), param.at);
     }
     const int side = balance > 0 ? 0 : 1;
-    evidence = best[side].weight == 0 ? "nothing in it tells the versions apart"
+    evidence = best[side].weight == 0 ? "nothing in it distinguishes the versions"
                                       : best[side].why + " (" + to_string(sources, where[side]) + ")";
     return side == 0 ? Version::v3 : Version::v4;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A diffuse base under a dielectric coat (pbrt-v4 CoatedDiffuseBxDF): see restage/v1/layered.glsl. Stochastic, but for a
-// smooth coat with nothing scattering below it, where the series sums in closed form and eval and pdf are exact.
+// A diffuse base under a dielectric coat (pbrt-v4 CoatedDiffuseBxDF): see restage/v1/layered.glsl. Stochastic, except for a
+// smooth coat without scattering below it, where the series has a closed form and eval and pdf are exact.
 #include <restage/v1/layered.glsl>
 
 Layered coateddiffuse_layers(coateddiffuse_Params m) {
@@ -25,7 +25,7 @@ float coateddiffuse_x2_e1(float x) {
     return x * exp(-x) * (x * (x + 2.334733) + 0.250621) / (x * (x + 3.330657) + 1.681534);
 }
 
-// The share of a cosine-distributed beam from the base that the smooth coat reflects back to the base:
+// The fraction of a cosine-distributed beam from the base that the smooth coat reflects back to the base:
 // K = int_0^1 2 mu F(mu) exp(-2 t / mu) dmu. Beyond the critical angle F = 1, which gives mu_c^2 2 E_3(2 t / mu_c),
 // with E_3(x) = (exp(-x) (1 - x) + x^2 E_1(x)) / 2; the rest is F_avg / eta^2 at a mean slope (its share is below 7 %).
 float coateddiffuse_returned(float eta, float thickness) {

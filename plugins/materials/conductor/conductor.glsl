@@ -15,7 +15,7 @@ Spectrum conductor_fresnel(conductor_Params m, float cos_i) {
     return fresnel_conductor(cos_i, conductor_eta(m), conductor_k(m));
 }
 
-// For light reflected more than once; the density of such samples follows its mean share of all light.
+// For light reflected more than once; the density of such samples follows its mean fraction of all light.
 Spectrum conductor_multiple(conductor_Params m, vec2 alpha, out float share) {
     share = 0.0;
     if (!m.multiscatter)

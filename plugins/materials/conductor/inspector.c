@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the inspector shows of a metal: which one it is, and its reflectance at every angle. */
+/* The inspector of a metal: a choice of metals, and the reflectance over the angle of incidence. */
 #include "inspector.h"
 
 #include <math.h>

@@ -22,7 +22,7 @@ Spectrum dielectric_tint(dielectric_Params m, bool reflects) {
     return clamp(reflects ? m.reflectance : m.transmittance, Spectrum(0), Spectrum(1));
 }
 
-// The share of samples for light scattered more than once.
+// The fraction of samples for light scattered more than once.
 float dielectric_multiple_share(dielectric_Params m, vec2 alpha, float eta, out MultiscatterDielectric lobe) {
     if (!m.multiscatter)
         return 0.0;

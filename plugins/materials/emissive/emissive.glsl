@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it reflects: Lambert, on both sides. What it emits is the host's part; see restage/emission.h.
+// Its reflection: Lambert, on both sides. The host handles its emission; see restage/emission.h.
 #include <restage/v1/sampling.glsl>
 
 Spectrum emissive_albedo(emissive_Params m, vec3 wo) { return clamp(m.reflectance, Spectrum(0), Spectrum(1)); }

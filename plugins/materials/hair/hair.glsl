@@ -2,9 +2,9 @@
 // Hair: Chiang, Bitterli, Tappan and Burley 2016, "A Practical and Controllable Hair and Fur Model for Production Path
 // Tracing", after Marschner et al. 2003 and d'Eon et al. 2011; in the form of Pharr et al. 2023, section 9.9.
 //
-// The surface is the fibre's own cylinder: x runs along it, z is the normal, and where on it light falls (h, the offset
-// across the fibre) is the angle between wo and the normal about x. What happens inside is in the scattering function, so
-// from within the cylinder (wo.z < 0) light passes the wall as if it were not there.
+// The surface is the fibre's own cylinder: x runs along it, z is the normal, and the point of incidence (h, the offset
+// across the fibre) follows from the angle between wo and the normal about x. Scattering inside is part of the scattering
+// function, so from within the cylinder (wo.z < 0) light passes the wall unchanged.
 #include <restage/v1/fresnel.glsl>
 
 const int hair_lobes = 3; // R, TT, TRT; one more for the rest
@@ -130,7 +130,7 @@ hair_State hair_state(hair_Params m, vec3 wo) {
     return st;
 }
 
-// f |cos wi| and its density; wo.z > 0. The scattering function has no cosine of its own: 1 / |cos| is left out here.
+// f |cos wi| and its density; wo.z > 0. The scattering function contains no cosine, so 1 / |cos| is omitted here.
 Spectrum hair_value(hair_State st, vec3 wi, out float pdf) {
     float sin_i = clamp(wi.x, -1.0, 1.0);
     float cos_i = sqrt(max(0.0, 1.0 - sin_i * sin_i));

@@ -183,7 +183,7 @@ static int make_marginal(const Merl* m, double theta_o, double* nodes, float* ro
     return 1;
 }
 
-/* For one wo: albedo, marginal of theta_h, and the share of half-vector samples that gives the least variance. `cells`
+/* For one wo: albedo, marginal of theta_h, and the fraction of half-vector samples that minimizes the variance. `cells`
  * has room for bins * steps * PHIS. */
 static void make_row(const Merl* m, double theta_o, int steps, Cell* cells, double* nodes, float* row) {
     const int bins = m->n[0], any = make_marginal(m, theta_o, nodes, row);

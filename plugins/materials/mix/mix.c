@@ -4,8 +4,8 @@
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_MATERIAL_PARAM("first", "First", 0, "Where the amount is 0."),
-    RESTAGE_MATERIAL_PARAM("second", "Second", 0, "Where the amount is 1."),
+    RESTAGE_MATERIAL_PARAM("first", "First", 0, "The material at an amount of 0."),
+    RESTAGE_MATERIAL_PARAM("second", "Second", 0, "The material at an amount of 1."),
     RESTAGE_FLOAT_PARAM("amount", "Amount", 0, 1, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Share of the second material."),
 };
 /* clang-format on */
@@ -17,7 +17,7 @@ static const RestageMaterial1 material = {
     .label = "Mix",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "A share of two materials, point by point.",
+    .tooltip = "A blend of two materials.",
 };
 
 RESTAGE_PLUGIN("org.restage.material.mix", "0.1.0", {RESTAGE_MATERIAL1, &material})

@@ -7,7 +7,7 @@
 float plastic_alpha(plastic_Params m) { return max(alpha_from_roughness(m.roughness, m.roughness, m.remap).x, 1e-3); }
 
 // pbrt-v3 builds its Fresnel term as (1.5, 1), the light arriving inside the plastic: total reflection beyond 42
-// degrees on the front. It is what v3 renders, so it is kept; from the back the indices are the other way round.
+// degrees on the front. This is v3's behaviour, so it is kept; from the back the indices are swapped.
 float plastic_eta(vec3 wo) { return wo.z > 0.0 ? 1.0 / 1.5 : 1.5; }
 
 // Probability of the glossy lobe.

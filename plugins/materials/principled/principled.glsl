@@ -25,15 +25,15 @@ struct principled_State {
     float coat;
     Spectrum sheen;
     float sheen_alpha;
-    float film; // share of the surface that has a film
+    float film; // fraction of the surface that has a film
     float film_ior;
     float film_thickness; // nm
     float mean_loss;      // of the layer, to multiple scattering; 0 without multiscatter
     Spectrum multiple;    // colour of light reflected more than once
     Spectrum multiple_through; // of a pane: colour of light transmitted then
-    float clear_multiple; // share of the surface that is glass and scatters more than once
+    float clear_multiple; // fraction of the surface that is glass and scatters more than once
     MultiscatterDielectric glass;
-    float sink;           // share of the cosine lobe's samples that go below
+    float sink;           // fraction of the cosine lobe's samples that go below
     vec2 turn;            // cosine and sine of the anisotropy's rotation
     vec4 choice;          // probabilities: cosine lobes (diffuse and multiple), layer, coat, sheen
 };
@@ -42,7 +42,7 @@ float principled_schlick(float c) {
     float x = clamp(1.0 - c, 0.0, 1.0);
     return sqr(x * x) * x;
 }
-// Of the opaque dielectric. `film`: s.film, or 0 where an estimate is enough, as the film is expensive to compile.
+// Of the opaque dielectric. `film`: s.film, or 0 if an estimate suffices, as the film is expensive to compile.
 Spectrum principled_fresnel(principled_State s, float c, float film) {
     Spectrum bare = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
     return film > 0.0 ? mix(bare, thin_film_reflectance(c, s.film_ior, s.film_thickness, s.f0), film) : bare;
@@ -51,7 +51,7 @@ float principled_coat_fresnel(principled_State s, float c) {
     return s.coat * (principled_coat_f0 + (1.0 - principled_coat_f0) * principled_schlick(c));
 }
 
-// What a microfacet reflects and transmits at the cosine c.
+// Reflection and transmission of a microfacet at the cosine c.
 Spectrum principled_reflected(principled_State s, float c, float film, out Spectrum through) {
     Spectrum f[3]; // of the opaque dielectric, of glass, of metal; a film is evaluated in a loop: compiled once
     f[0] = s.f0 + (s.f90 - s.f0) * principled_schlick(c);
@@ -76,7 +76,7 @@ Spectrum principled_reflected(principled_State s, float c, float film, out Spect
     return mix(dielectric, f[2], s.metallic);
 }
 
-// The share of the layer's samples that reflect.
+// The fraction of the layer's samples that reflect.
 float principled_reflects(Spectrum reflected, Spectrum through) {
     float r = max_component(reflected);
     float t = max_component(through);
@@ -105,7 +105,7 @@ float principled_mean_fresnel(principled_State s) {
     return sum;
 }
 
-// The share of the rest left under the fibres: KHR_materials_sheen, "Albedo-scaling technique".
+// The fraction of the rest left under the fibres: KHR_materials_sheen, "Albedo-scaling technique".
 float principled_under_sheen(principled_State s, float cos_o, float cos_i) {
     float most = max_component(s.sheen);
     if (most <= 0.0)

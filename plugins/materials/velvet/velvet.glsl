@@ -12,7 +12,7 @@ Spectrum velvet_value(velvet_Params m, vec3 wo, vec3 wi) {
            clamp(m.reflectance, Spectrum(0), Spectrum(1)) * ((1.0 - taken) * INV_PI * wi.z);
 }
 
-// The share of samples that follow the sheen.
+// The fraction of samples that follow the sheen.
 float velvet_share(velvet_Params m, float cos_o) {
     float sheen = max_component(m.sheen) * sheen_albedo(cos_o, sheen_alpha(m.roughness));
     return sheen / max(sheen + max_component(m.reflectance) * (1.0 - sheen), 1e-20);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preetham, Shirley, Smits 1999, A Practical Analytic Model for Daylight, appendix 2 (A.2): Perez' five parameters for
 // luminance and chromaticity as functions of turbidity, and the zenith's chromaticity. Its zenith luminance is not
-// used: it gives twice the light that clear skies are measured to give, and at sunset ten times (as Zotti, Wilkie,
-// Purgathofer 2007, A Critical Review of the Preetham Skylight Model, found). The level is sky_illuminance()'s.
+// used: it is twice that of measured clear skies, and ten times at sunset (Zotti, Wilkie, Purgathofer 2007, A Critical
+// Review of the Preetham Skylight Model). The level is that of sky_illuminance().
 #include "sunsky/daylight.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Light from above where the sun does not shine any more [lx]: 400 at sunset, 3.4 at 6 degrees below, 0.008 at 12
+// Illuminance after sunset [lx]: 400 at sunset, 3.4 at 6 degrees below, 0.008 at 12
 // (Seidelmann 1992, Explanatory Supplement to the Astronomical Almanac, 9.311).
 double twilight(double elevation) {
     if (elevation >= 0) return 400;
@@ -24,7 +24,7 @@ double twilight(double elevation) {
     return 400 * std::pow(10, -decades);
 }
 
-// The share of a level disk of the sun that is above the horizon.
+// Fraction of the sun's disk that is above the horizon.
 double risen(double elevation) {
     const double h = std::clamp(elevation / sun_radius, -1.0, 1.0);
     return 0.5 + (std::asin(h) + h * std::sqrt(1 - h * h)) / pi;
@@ -75,7 +75,7 @@ Daylight::Daylight(const DaylightParams& params) : params_(params) {
             from_sun_[k] = disk_[k] * solid_angle * std::max(std::sin(elevation), 0.0);
         }
     }
-    // The midpoint rule over sin^2 of the elevation and azimuth: equal shares of cos(theta) d(omega).
+    // The midpoint rule over sin^2 of the elevation and azimuth: equal steps of cos(theta) d(omega).
     constexpr int rows = 32, columns = 64;
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < columns; ++j) {

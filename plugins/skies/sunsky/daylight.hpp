@@ -19,7 +19,7 @@ struct DaylightParams {
     bool sun = true;
 };
 
-// A part of Perez' distribution: one of Y, x and y.
+// Perez' distribution of one component: Y, x or y.
 struct Perez {
     double a, b, c, d, e;
     double at(double cos_theta, double gamma, double cos_gamma) const;
@@ -30,7 +30,7 @@ class Daylight {
     explicit Daylight(const DaylightParams&);
     // Luminance as linear sRGB [cd/m^2] of the sky, or of the ground below it, without the sun's disk.
     Color at(const Direction&) const;
-    // Of the disk, of the sun's true size; black when it has set.
+    // Radiance of the disk at the sun's true size; black when it has set.
     Color disk() const { return disk_; }
     const Direction& to_sun() const { return to_sun_; }
     // Illuminance of a level surface, per channel [lx].
@@ -41,9 +41,9 @@ class Daylight {
     Color sky(const Direction&) const;
 
     DaylightParams params_;
-    Direction to_sun_, shown_sun_; // shown: not below the horizon
+    Direction to_sun_, shown_sun_; // clamped to the horizon
     Perez luminance_, x_, y_;
-    double zenith_[3] = {1, 0, 0}; // Y [cd/m^2], x, y, over the distribution's value there
+    double zenith_[3] = {1, 0, 0}; // Y [cd/m^2], x, y, divided by the distribution's value there
     Color disk_{}, from_sky_{}, from_sun_{}, ground_{};
 };
 

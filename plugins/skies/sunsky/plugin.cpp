@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "sunsky": the parameters, and the picture of them.
+// "sunsky": its parameters and its image.
 #include "sunsky/daylight.hpp"
 #include "sunsky/solar_position.hpp"
 
@@ -22,21 +22,22 @@ constexpr double unit_luminance = 25000;
 
 constexpr RestageParam params[] = {
     sdk::choice("mode", "Sun by", "direction|place", 0,
-                {"direction: azimuth and elevation. place: where, which day and what time, below"}),
+                {"direction: azimuth and elevation. place: position, date and time, below"}),
     sdk::number("azimuth", "Azimuth", 0, 360, 180,
-                {"Of the sun, clockwise from north, where the sun is given by direction", "deg"}),
+                {"Of the sun, clockwise from north, if it is given by direction", "deg"}),
     sdk::number("elevation", "Elevation", -18, 90, 35,
-                {"Of the sun above the horizon, where it is given by direction. Below 0 it is twilight", "deg"}),
-    sdk::number("turbidity", "Turbidity", 2, 10, 3, {"Haze: 2 is a clear sky, 3 a common one, 6 hazy, 10 misty"}),
+                {"Of the sun above the horizon, if it is given by direction. Below 0 is twilight", "deg"}),
+    sdk::number("turbidity", "Turbidity", 2, 10, 3, {"Haze: 2 is a clear sky, 3 a typical one, 6 hazy, 10 misty"}),
     sdk::color("ground", "Ground", {0.2f, 0.2f, 0.2f},
                {"The colour of the land below the horizon, lit by sun and sky"}),
-    sdk::toggle("sun", "Sun", true, {"The sun's disk and its light; without it the sky alone"}),
-    sdk::number("sun_size", "Sun size", 0.5f, 20, 1,
-                {"Diameter of the disk over that of the true one. The light stays the same; shadows get softer", "x"}),
+    sdk::toggle("sun", "Sun", true, {"The sun's disk and its light; off: only the sky"}),
+    sdk::number(
+        "sun_size", "Sun size", 0.5f, 20, 1,
+        {"Diameter of the disk relative to the true one. The irradiance stays the same; shadows get softer", "x"}),
     sdk::number("intensity", "Intensity", 0, 100, 1,
-                {"Times everything. At 1, 25 000 cd/m^2 are 1: white paper at noon is about as bright"}),
+                {"Multiplies everything. At 1, a value of 1 is 25 000 cd/m^2, about white paper at noon"}),
     sdk::number("north", "North", -360, 360, 0,
-                {.tooltip = "Turns everything clockwise, sun and all", .unit = "deg", .advanced = true}),
+                {.tooltip = "Rotates everything clockwise, including the sun", .unit = "deg", .advanced = true}),
     sdk::number("latitude", "Latitude", -90, 90, 48.2f,
                 {.tooltip = "Of the place, north positive", .unit = "deg", .advanced = true}),
     sdk::number("longitude", "Longitude", -180, 180, 16.4f,
@@ -44,11 +45,9 @@ constexpr RestageParam params[] = {
     sdk::integer("year", "Year", 1950, 2050, 2026, {.tooltip = "Of the date", .advanced = true}),
     sdk::integer("month", "Month", 1, 12, 6, {.tooltip = "1 is January", .advanced = true}),
     sdk::integer("day", "Day", 1, 31, 21, {.tooltip = "Of the month", .advanced = true}),
-    sdk::number("hour", "Time", 0, 24, 14, {.tooltip = "On the clock there", .unit = "h", .advanced = true}),
+    sdk::number("hour", "Time", 0, 24, 14, {.tooltip = "Local clock time", .unit = "h", .advanced = true}),
     sdk::number("zone", "Time zone", -12, 14, 2,
-                {.tooltip = "Hours that clocks there are ahead of UTC, daylight saving included",
-                 .unit = "h",
-                 .advanced = true}),
+                {.tooltip = "Hours ahead of UTC, including daylight saving", .unit = "h", .advanced = true}),
 };
 
 class Values {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PSA algorithm: Blanco-Muriel, Alarcon-Padilla, Lopez-Moratalla, Lara-Coira 2001, Computing the solar vector,
-// Solar Energy 70(5). Right to half a minute of arc from 1999 to 2015, and to a few in the decades around.
+// Solar Energy 70(5). Accurate to half an arc minute from 1999 to 2015, and to a few in adjacent decades.
 #include "sunsky/solar_position.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double days_since_2000(const Moment& when) {
 
 SunPosition sun_at(const Place& place, const Moment& when) {
     const double n = days_since_2000(when);
-    // The sun in the ecliptic, the earth's inclination, and so right ascension and declination.
+    // Ecliptic coordinates of the sun, obliquity of the ecliptic, then right ascension and declination.
     const double omega = 2.1429 - 0.0010394594 * n;
     const double mean_longitude = 4.8950630 + 0.017202791698 * n;
     const double anomaly = 6.2400600 + 0.0172019699 * n;
@@ -29,7 +29,7 @@ SunPosition sun_at(const Place& place, const Moment& when) {
     const double obliquity = 0.4090928 - 6.2140e-9 * n + 0.0000396 * std::cos(omega);
     const double ascension = std::atan2(std::cos(obliquity) * std::sin(longitude), std::cos(longitude));
     const double declination = std::asin(std::sin(obliquity) * std::sin(longitude));
-    // And above the place.
+    // Then local coordinates.
     constexpr double degree = std::numbers::pi / 180;
     const double sidereal = 6.6974243242 + 0.0657098283 * n + (when.hour - when.zone); // at Greenwich [h]
     const double hour_angle = (15 * sidereal + place.longitude) * degree - ascension;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the sun stands, from place, date and clock.
+// The sun's position from place, date and time.
 #pragma once
 
 namespace restage::sunsky {
@@ -8,8 +8,8 @@ struct Place {
     double latitude = 0, longitude = 0; // [deg], north and east positive
 };
 struct Moment {
-    int year = 2000, month = 1, day = 1; // Gregorian; days that a month lacks are its last
-    double hour = 12; // as the clock of the zone shows it
+    int year = 2000, month = 1, day = 1; // Gregorian; clamped to the last day of the month
+    double hour = 12; // local time of the zone
     double zone = 0;  // hours ahead of UTC
 };
 struct SunPosition {

@@ -46,7 +46,7 @@ Color matching(double w) {
             1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
 }
 
-// What comes through an atmosphere at one wavelength, by what takes the rest.
+// Transmittances of the atmosphere at one wavelength, by cause.
 struct Passes {
     double molecules, aerosol, ozone_and_water;
     double all() const { return molecules * aerosol * ozone_and_water; }
@@ -60,13 +60,13 @@ Passes passes(int wavelength, double m, double turbidity) {
             std::exp(-listed(ozone, 450, wavelength) * 0.35 * m - 0.2385 * w / std::pow(1 + 20.07 * w, 0.45))};
 }
 
-// Relative optical mass, Kasten 1965 as Preetham has it.
+// Relative optical mass, Kasten 1965 as in Preetham.
 double air_mass(double elevation) {
     const double zenith = std::numbers::pi / 2 - std::max(elevation, 0.0);
     return 1 / (std::cos(zenith) + 0.15 * std::pow(93.885 - zenith * 180 / std::numbers::pi, -1.253));
 }
 
-// The sun's radiance, times share(wavelength).
+// The sun's radiance times share(wavelength).
 template <class F>
 Color xyz(F&& share) {
     Color sum{};
@@ -97,8 +97,8 @@ Color sun_xyz_above_atmosphere() {
     return xyz([](int) { return 1.0; });
 }
 
-// Iqbal 1983, model C (Bird and Hulstrom 1981), 7.6.6 and 7.6.7, here wavelength by wavelength: half of what molecules
-// scatter comes down, and 84 % of what the aerosol does, whose particles absorb a tenth of what they take.
+// Iqbal 1983, model C (Bird and Hulstrom 1981), 7.6.6 and 7.6.7, here per wavelength: half of the light scattered by
+// molecules reaches the ground, and 84 % of that scattered by the aerosol, which absorbs a tenth of its extinction.
 double sky_illuminance(double elevation, double turbidity) {
     const double m = air_mass(elevation);
     const double solid_angle = 2 * std::numbers::pi * (1 - std::cos(sun_radius));

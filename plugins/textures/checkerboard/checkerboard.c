@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Checkerboard: the parameter table, and checkerboard.glsl once more for the CPU. */
+/* Checkerboard: the parameter table, and checkerboard.glsl in C for the CPU. */
 #include <math.h>
 #include <restage/texture.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("tex1", "First", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Of the square at the origin."),
-    RESTAGE_COLOR_PARAM("tex2", "Second", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Of its neighbours."),
+    RESTAGE_COLOR_PARAM("tex1", "First", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Value of the square at the origin."),
+    RESTAGE_COLOR_PARAM("tex2", "Second", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Value of its neighbours."),
 };
 /* clang-format on */
 
@@ -26,7 +26,7 @@ static const RestageTexture1 texture = {
     .glsl_file = "checkerboard.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "Squares of two values, one a unit of u and v.",
+    .tooltip = "Alternating unit squares of u and v.",
     .eval = eval,
 };
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Constant: the parameter table, and constant.glsl once more for the CPU. */
+/* Constant: the parameter table, and constant.glsl in C for the CPU. */
 #include <restage/texture.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("value", "Value", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "What it is everywhere."),
+    RESTAGE_COLOR_PARAM("value", "Value", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The value."),
 };
 /* clang-format on */
 
@@ -22,7 +22,7 @@ static const RestageTexture1 texture = {
     .glsl_file = "constant.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "One value everywhere.",
+    .tooltip = "The same value everywhere.",
     .eval = eval,
 };
 

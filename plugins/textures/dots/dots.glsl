@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dots in about every other cell of a grid. Pharr et al. 2018 (pbrt-v3), 10.5.2; but as in its code, v3 and v4, which
-// hands over its two values in the wrong order, `inside` is what lies between the dots.
+// Dots in about every other cell of a grid. Pharr et al. 2018 (pbrt-v3), 10.5.2; but as in the code of v3 and v4, which
+// passes the two values in the wrong order, `inside` is the value between the dots.
 #include <restage/v1/noise.glsl>
 
 const float polka_radius = 0.35;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Image: the parameter table, and imagemap.glsl once more for the CPU. */
+/* Image: the parameter table, and imagemap.glsl in C for the CPU. */
 #include <restage/texture.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
     RESTAGE_FLOAT_PARAM("scale", "Factor", 0, 100, 1, 0, "", "Multiplies the image."),
-    RESTAGE_BOOL_PARAM("invert", "Inverted", 0, 0, "1 minus the image, after the factor."),
-    RESTAGE_ENUM_PARAM("wrap", "Outside", "repeat|black|clamp", 0, 0, "What is beyond the image's edge."),
+    RESTAGE_BOOL_PARAM("invert", "Inverted", 0, 0, "1 minus the scaled image."),
+    RESTAGE_ENUM_PARAM("wrap", "Outside", "repeat|black|clamp", 0, 0, "What lies beyond the image's edge."),
 };
 /* clang-format on */
 
@@ -15,7 +15,7 @@ static void eval(const RestageTextureAt1* at, float rgb[3]) {
     at->image(at, at->uv[0], at->uv[1], at->whole[2], texel);
     for (int k = 0; k < 3; ++k) {
         rgb[k] = texel[k] * at->values[0];
-        if (at->whole[1]) rgb[k] = rgb[k] < 1 ? 1 - rgb[k] : 0; /* after the scale, as pbrt-v4 */
+        if (at->whole[1]) rgb[k] = rgb[k] < 1 ? 1 - rgb[k] : 0; /* after the scale, as in pbrt-v4 */
     }
 }
 

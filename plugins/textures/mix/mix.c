@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Mix: the parameter table, and mix.glsl once more for the CPU. */
+/* Mix: the parameter table, and mix.glsl in C for the CPU. */
 #include <restage/texture.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("tex1", "First", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "Where the amount is 0."),
-    RESTAGE_COLOR_PARAM("tex2", "Second", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "Where the amount is 1."),
-    RESTAGE_FLOAT_PARAM("amount", "Amount", 0, 1, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "How much of the second."),
+    RESTAGE_COLOR_PARAM("tex1", "First", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "The value at an amount of 0."),
+    RESTAGE_COLOR_PARAM("tex2", "Second", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The value at an amount of 1."),
+    RESTAGE_FLOAT_PARAM("amount", "Amount", 0, 1, 0.5f, RESTAGE_PARAM_TEXTURABLE, "", "Fraction of the second value."),
 };
 /* clang-format on */
 
@@ -25,7 +25,7 @@ static const RestageTexture1 texture = {
     .glsl_file = "mix.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "Between two values, by an amount.",
+    .tooltip = "Linear interpolation between two values.",
     .eval = eval,
 };
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Product: the parameter table, and scale.glsl once more for the CPU. */
+/* Product: the parameter table, and scale.glsl in C for the CPU. */
 #include <restage/texture.h>
 
 /* clang-format off */
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("tex", "Value", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "What is multiplied."),
-    RESTAGE_COLOR_PARAM("scale", "Factor", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "By what it is multiplied."),
+    RESTAGE_COLOR_PARAM("tex", "Value", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The first factor."),
+    RESTAGE_COLOR_PARAM("scale", "Factor", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The second factor."),
 };
 /* clang-format on */
 

@@ -3,7 +3,7 @@
 #ifndef RESTAGE_V1_NOISE
 #define RESTAGE_V1_NOISE
 
-// Perlin's permutation of 0..255, four to a word.
+// Perlin's permutation of 0..255, four per word.
 const uint noise_words[64] = uint[](
     0x5b89a097u, 0x0d830f5au, 0x35605fc9u, 0xe107e9c2u, 0x1e67248cu, 0x63088e45u, 0x0a15f025u, 0x9406be17u,
     0x4bea78f7u, 0x3ec51a00u, 0xcbdbfc5eu, 0x200b2375u, 0x5821b139u, 0x573895edu, 0x887d14aeu, 0xaf44a8abu,
@@ -26,7 +26,7 @@ float noise_gradient(uint x, uint y, uint z, vec3 d) {
     return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
 }
 
-// Within [-1, 1], 0 at points of whole numbers; repeats every 256.
+// Within [-1, 1], 0 at integer points; period 256.
 float noise(vec3 p) {
     vec3 base = floor(p), d = p - base;
     uvec3 i = uvec3(ivec3(base - 256.0 * floor(base / 256.0)));
@@ -41,12 +41,12 @@ float noise(vec3 p) {
     return mix(y0, y1, w.z);
 }
 
-// How many octaves are not finer than a pixel, which covers `footprint` of p's space.
+// Number of octaves no finer than a pixel of width `footprint` in p's space.
 float noise_octaves(float footprint, int most) {
     return clamp(-1.0 - log2(max(footprint, 1e-30)), 0.0, float(most));
 }
 
-// Octaves of noise, each `omega` of the one before. Fractional Brownian motion.
+// Fractional Brownian motion: octaves of noise, each `omega` times the previous one.
 float noise_fbm(vec3 p, float footprint, float omega, int most) {
     float n = noise_octaves(footprint, most), whole = floor(n);
     float sum = 0.0, lambda = 1.0, o = 1.0;
@@ -58,7 +58,7 @@ float noise_fbm(vec3 p, float footprint, float omega, int most) {
     return sum + o * smoothstep(0.3, 0.7, n - whole) * noise(lambda * p);
 }
 
-// The same of absolute values; octaves that are left out count as their mean.
+// Likewise of absolute values; omitted octaves count as their mean.
 float noise_turbulence(vec3 p, float footprint, float omega, int most) {
     float n = noise_octaves(footprint, most), whole = floor(n);
     float sum = 0.0, lambda = 1.0, o = 1.0;

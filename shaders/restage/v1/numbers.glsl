@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classifies a float by its bits (IEEE 754). If a device does not promise to keep NaN and infinity, its compiler
+// Classifies a float by its bits (IEEE 754). If a device does not guarantee to preserve NaN and infinity, its compiler
 // may assume that every value is a number: isnan() is then false, and !(x > 0.0) the same as x <= 0.0.
 #ifndef RESTAGE_V1_NUMBERS
 #define RESTAGE_V1_NUMBERS

@@ -26,7 +26,7 @@ bool is_black(vec3 c) { return c == vec3(0); }
 #ifdef RESTAGE_SPECTRAL
 
 // A placeholder until there is a spectral renderer: every path uses these wavelengths, and the three primaries
-// are curves that sum to 1 everywhere. Users of the functions above need not change.
+// are curves that sum to 1 everywhere. Code that uses the functions above will not have to change.
 #define Spectrum vec4
 
 Spectrum wavelengths() { return Spectrum(450.0, 520.0, 580.0, 640.0); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables: words that a plugin made from a file (restage/table.h), seen by the GLSL of materials as parameters of type
-// Table. Words past the end are 0. The members of Table belong to the host.
+// Tables: words that a plugin has made from a file (restage/table.h); in the GLSL of materials they are parameters of type
+// Table. Words past the end are 0. The members of Table are private to the host.
 #ifndef RESTAGE_V1_TABLE
 #define RESTAGE_V1_TABLE
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the code of a texture is given (restage/texture.h): where it is asked, and its image.
+// Input of a texture's code (restage/texture.h): the point of evaluation, and its image.
 #ifndef RESTAGE_V1_TEXTURE
 #define RESTAGE_V1_TEXTURE
 #include <restage/v1/spectrum.glsl>
@@ -9,8 +9,8 @@
 
 struct TextureSite {
     vec2 uv; // of the first set, or of the texture's own map (MAPPED)
-    uint use_; // the host's
-#ifdef RESTAGE_TEXTURE_SITES // for textures that ask for it (SITE), no others
+    uint use_; // private to the host
+#ifdef RESTAGE_TEXTURE_SITES // only for textures with SITE
     vec2 duv_dx, duv_dy; // change of uv from one pixel to the next, to the right and downwards
     Site place;          // place.uv and its changes are the mesh's own
 #endif
@@ -18,8 +18,8 @@ struct TextureSite {
 
 const uint TEXTURE_REFLECTANCE = 0u, TEXTURE_UNBOUNDED = 1u, TEXTURE_DATA = 2u; // use_
 
-// A colour of the texture's own. Whether it is a reflectance, unbounded, or three numbers (a normal, an opacity) is up to
-// whatever takes the texture's value.
+// A colour from RGB. The slot that reads the texture decides whether it is a reflectance, unbounded, or three plain numbers (a
+// normal, an opacity).
 Spectrum texture_color(TextureSite at, vec3 rgb) {
 #ifdef RESTAGE_SPECTRAL
     if (at.use_ == TEXTURE_DATA) return Spectrum(rgb, 0.0);
@@ -29,13 +29,13 @@ Spectrum texture_color(TextureSite at, vec3 rgb) {
 #endif
 }
 
-// The texture's image: the parameter `image` of textures with IMAGE. Its member is the host's.
+// The texture's image: the parameter `image` of textures with IMAGE. Its member is private to the host.
 struct TextureImage {
     uint64_t record;
 };
 const int TEXTURE_REPEAT = 0, TEXTURE_BLACK = 1, TEXTURE_CLAMP = 2;
 
-// Linear RGB and alpha, filtered bilinearly. s goes to the right, t upwards: row 0 of the image is at t = 1.
+// Linear RGB and alpha, filtered bilinearly. s points right, t upwards: row 0 of the image is at t = 1.
 vec4 texture_image(TextureImage image, vec2 st, int wrap); // lib/texture.glsl, which comes after the plugin's code
 
 #endif

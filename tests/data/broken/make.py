@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes the broken files beside it and expected.txt, which says of each what its error must contain. Nothing but the
+# Writes the broken files next to it and expected.txt, which lists the required part of each error. Nothing but the
 # Python library; the results are checked in.
-# expected.txt: path, '|', part of the message ("report:" in front: the scene opens, and a dropped thing says so). tests/fuzz/broken_test.cpp says how each folder is used.
+# expected.txt: path, '|', part of the message ("report:" in front: the scene opens, and the report contains that message). tests/fuzz/broken_test.cpp documents how each folder is used.
 import base64
 import gzip
 import json
@@ -44,8 +44,8 @@ put("ply/format-unknown.ply", ply(kind="ebcdic") + POINTS + "3 0 1 2\n", "format
 put("ply/format-missing.ply", ply().replace("format ascii 1.0\n", "") + POINTS + "3 0 1 2\n", "names no format")
 put("ply/count-negative.ply", ply(vertices="-3") + POINTS, "not readable")
 put("ply/count-word.ply", ply(vertices="many") + POINTS, "not readable")
-put("ply/count-2e31.ply", ply(vertices="2147483648") + POINTS, "promised")
-put("ply/count-2e63.ply", ply(vertices="18446744073709551615") + POINTS, "promised")
+put("ply/count-2e31.ply", ply(vertices="2147483648") + POINTS, "declared")
+put("ply/count-2e63.ply", ply(vertices="18446744073709551615") + POINTS, "declared")
 put("ply/count-too-long.ply", ply(vertices="99999999999999999999999") + POINTS, "not readable")
 put("ply/vertices-short.ply", ply() + "0 0 0\n1 0 0\n", "truncated")
 put("ply/faces-short.ply", ply(faces="2") + POINTS + "3 0 1 2\n", "truncated")
@@ -185,8 +185,8 @@ put("models/polygon.obj", V + "f" + " 1 2 3" * 3000 + " 9\n", "polygon.obj:4:")
 FACET = struct.pack("<12f", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0) + b"\0\0"
 put("models/empty.stl", "", "the header ends early")
 put("models/head.stl", b"\0" * 60, "the header ends early")
-put("models/cut.stl", b"\0" * 80 + struct.pack("<I", 2) + FACET + FACET[:30], "2 facets promised, 1 found")
-put("models/count-2e32.stl", b"\0" * 80 + struct.pack("<I", 0xFFFFFFFF) + FACET, "4294967295 facets promised")
+put("models/cut.stl", b"\0" * 80 + struct.pack("<I", 2) + FACET + FACET[:30], "2 facets declared, 1 found")
+put("models/count-2e32.stl", b"\0" * 80 + struct.pack("<I", 0xFFFFFFFF) + FACET, "4294967295 facets declared")
 put("models/none.stl", b"\0" * 84, "no faces")
 put("models/nan.stl", b"\0" * 80 + struct.pack("<I", 1) + struct.pack("<12f", 0, 0, 1, 0, 0, 0, 1, float("nan"), 0, 0, 1, 0) + b"\0\0", "byte 108")
 put("models/word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n", "word.stl:4:12:")

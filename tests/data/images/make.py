@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes the pictures beside it, all of one motif: 16 x 8 texels, (200,100,50) left of column 8 and (20,60,220) right of
+# Writes the pictures next to it, all of the same motif: 16 x 8 texels, (200,100,50) left of column 8 and (20,60,220) right of
 # it, with the top left texel (255,255,255). Needs Pillow. The results are checked in; this is their source.
 import pathlib
 import struct

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes the small good models beside it, which the tests of broken input damage. Nothing but the Python library; the
+# Writes the small valid models next to it, which the tests of broken input damage. Nothing but the Python library; the
 # results are checked in.
 import json
 import pathlib

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A bundle with one of everything that 0.2 promised, built with the headers beside it for ever: every way in which a
+/* A bundle with everything that 0.2 supports, always built with the headers next to it: every way in which a
  * plugin and the host exchange structs is used. tests/scripts/test_contract.py checks it with today's program. */
 #include <restage/denoiser.h>
 #include <restage/emission.h>
@@ -24,11 +24,11 @@ static int init(const RestageHost* host) {
     return 1;
 }
 
-/* --- a material that may shine, its part of the inspector, and its table ------------------------------------------ */
+/* --- a material that may emit, its part of the inspector, and its table ------------------------------------------ */
 
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.8f, 0.4f, 0.2f, RESTAGE_PARAM_TEXTURABLE, "", "Of the cloth."),
-    RESTAGE_COLOR_PARAM("glow", "Glow", 0, 100, 0, 0, 0, 0, "W/(m^2 sr)", "Light of its own."),
+    RESTAGE_COLOR_PARAM("glow", "Glow", 0, 100, 0, 0, 0, 0, "W/(m^2 sr)", "Emission."),
     RESTAGE_FLOAT_PARAM("brightness", "Brightness", 0, 10, 1, 0, "", "Times the glow."),
     RESTAGE_INT_PARAM("threads", "Threads", 1, 9, 2, RESTAGE_PARAM_ADVANCED, "", "How many."),
     RESTAGE_BOOL_PARAM("both_sides", "Both sides", 0, 0, "Shines from both."),
@@ -74,7 +74,8 @@ static int read(const char* param_id, const RestageTableFile1* file) {
 }
 static const RestageTable1 reader = {sizeof reader, "velvet02", "dat", read};
 
-/* --- an importer and an exporter of nine numbers a triangle ---------------------------------------------------------
+/* --- an importer and an exporter of nine numbers per triangle
+ * ---------------------------------------------------------
  */
 
 static int probe(const char* path, const void* head, size_t size) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An action with a panel that runs it, and the list of all that the library holds. */
+/* An action with a panel that runs it, and the list of everything the library provides. */
 #include "bundle.h"
 
 static const RestageParam lift_params[] = {
-    RESTAGE_FLOAT_PARAM("height", "Height", -10, 10, 1, 0, "", "How far the objects are moved along y."),
+    RESTAGE_FLOAT_PARAM("height", "Height", -10, 10, 1, 0, "", "Distance to move the objects along y."),
 };
 static int lift_run(const RestageSceneReader1* scene, const RestageSelection1* selection, const RestageValue* params,
                     uint32_t count, RestageEditWriter1* edits) {
@@ -32,7 +32,7 @@ static const RestageAction1 lift = {
 
 static void lift_draw(const RestageUi1* ui, void* ctx) {
     ui->param(ctx, "height");
-    if (ui->selected(ctx) == 0) ui->text(ctx, "Select what is to be lifted.");
+    if (ui->selected(ctx) == 0) ui->text(ctx, "Select the objects to lift.");
     if (ui->button(ctx, "Lift it", "Moves the selected objects upwards")) ui->run(ctx, "lift");
 }
 static const RestagePanel1 lift_panel = {

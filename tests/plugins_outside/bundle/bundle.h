@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A bundle of one plugin of each kind, in C11, for tests/scripts/test_bundle.py and tests/ui/test_bundle.py. */
+/* A bundle of one plugin of each kind, in C11, for tests/ui/test_bundle.py. */
 #ifndef BUNDLE_H
 #define BUNDLE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An importer with an option and an exporter of one format, and a denoiser. The format: a line "towers 1", then a line
+/* An importer with an option and an exporter for one format, and a denoiser. The format: a line "towers 1", then a line
  * "X Z HEIGHT" for each box of 1 x HEIGHT x 1 that stands on y = 0. */
 #include "bundle.h"
 
@@ -62,7 +62,7 @@ static int towers_load(const char* path, const RestageSceneWriter1* out) {
     return done;
 }
 static const RestageParam import_options[] = {
-    RESTAGE_FLOAT_PARAM("scale", "Scale", 0.001f, 1000, 1, 0, "", "Scene units a unit of the file."),
+    RESTAGE_FLOAT_PARAM("scale", "Scale", 0.001f, 1000, 1, 0, "", "Scene units per unit of the file."),
 };
 const RestageImporter1 towers_in = {
     .size = sizeof(RestageImporter1),
@@ -76,7 +76,7 @@ const RestageImporter1 towers_in = {
 };
 
 static const RestageParam export_options[] = {
-    RESTAGE_BOOL_PARAM("hidden", "Hidden objects", 0, 0, "Writes hidden objects as well."),
+    RESTAGE_BOOL_PARAM("hidden", "Hidden objects", 0, 0, "Writes hidden objects, too."),
 };
 static int towers_write(FILE* file, const RestageSceneReader1* in, int hidden) {
     const uint32_t count = in->count(in->ctx, RESTAGE_KIND_INSTANCE);
@@ -86,7 +86,7 @@ static int towers_write(FILE* file, const RestageSceneReader1* in, int hidden) {
         RestageInstance it = {.size = sizeof it};
         if (!in->progress(in->ctx, (float)i / (float)count, "writing")) return 0;
         if (!in->instance(in->ctx, i, &it) || ((it.flags & RESTAGE_INSTANCE_HIDDEN) && !hidden)) continue;
-        in->report(in->ctx, RESTAGE_APPROXIMATED, it.name, "the format has boxes only");
+        in->report(in->ctx, RESTAGE_APPROXIMATED, it.name, "the format has only boxes");
         fprintf(file, "%.9g %.9g %.9g\n", it.object_to_world[12], it.object_to_world[14], it.object_to_world[5]);
     }
     return 1;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is seen: a material, a texture, a sky. */
+/* Appearance: a material, a texture, a sky. */
 #include "bundle.h"
 
 #include <math.h>
 
 static const RestageParam chalk_params[] = {
     RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.8f, 0.8f, 0.7f, RESTAGE_PARAM_TEXTURABLE, "",
-                        "The share of light that is reflected."),
+                        "Fraction of light that is reflected."),
 };
 const RestageMaterial1 chalk = {
     .size = sizeof(RestageMaterial1),
@@ -21,9 +21,9 @@ const RestageMaterial1 chalk = {
 };
 
 static const RestageParam stripes_params[] = {
-    RESTAGE_COLOR_PARAM("first", "First", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "From the left edge on."),
+    RESTAGE_COLOR_PARAM("first", "First", 0, 1, 1, 1, 1, RESTAGE_PARAM_TEXTURABLE, "", "The stripe at the left edge."),
     RESTAGE_COLOR_PARAM("second", "Second", 0, 1, 0, 0, 0, RESTAGE_PARAM_TEXTURABLE, "", "After it."),
-    RESTAGE_FLOAT_PARAM("count", "Count", 1, 64, 4, 0, "", "Pairs of stripes in one unit of u."),
+    RESTAGE_FLOAT_PARAM("count", "Count", 1, 64, 4, 0, "", "Pairs of stripes per unit of u."),
 };
 static void stripes_eval(const RestageTextureAt1* at, float rgb[3]) {
     const float x = at->uv[0] * at->values[8];
@@ -44,7 +44,7 @@ const RestageTexture1 stripes = {
 
 static const RestageParam dusk_params[] = {
     RESTAGE_FLOAT_PARAM("brightness", "Brightness", 0, 10, 1, 0, "", "Radiance at the zenith."),
-    RESTAGE_FLOAT_PARAM("elevation", "Elevation", 0, 90, 10, 0, "deg", "Of the sun over the horizon, in the east."),
+    RESTAGE_FLOAT_PARAM("elevation", "Elevation", 0, 90, 10, 0, "deg", "Of the sun above the horizon, in the east."),
 };
 static int dusk_make(const RestageValue* values, uint32_t count, const RestageSkyJob1* out) {
     const float brightness = RESTAGE_AT(RestageValue, values, 0).v[0];
@@ -73,7 +73,7 @@ const RestageSky1 dusk = {
     .param_count = RESTAGE_COUNT(dusk_params),
     .type = "dusk",
     .label = "Dusk",
-    .tooltip = "A warm horizon under a grey sky.",
+    .tooltip = "A grey sky with a warm horizon.",
     .params = dusk_params,
     .make = dusk_make,
 };

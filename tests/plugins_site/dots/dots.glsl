@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material that needs its Site: a procedural through the object, filtered by the footprint, and the Site's numbers.
+// A material that needs its Site: a solid procedural, filtered by the footprint, and the Site's values.
 #include <restage/v1/sampling.glsl>
 #include <restage/v1/site.glsl>
 

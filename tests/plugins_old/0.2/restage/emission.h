@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Interface "restage.emission/1": a material that emits. Pure data: the table names the parameters of the material
- * that say how much, and the host turns objects that have it into lights, which paths find by light sampling and by
- * BSDF sampling. The radiance leaving every point, in every direction on the outer side, is
+/* Interface "restage.emission/1": a material that emits. Pure data: the table names the parameters that hold the
+ * radiance, and the host turns objects with the material into lights, which paths find by light sampling and by BSDF
+ * sampling. The radiance leaving every point, in every direction on the outer side, is
  *
  *   L = radiance * scale   [W/(m^2 sr)], linear sRGB primaries
  *
  * where `radiance` may be a texture. An object with its own emission uses that instead. Components of a `mix` do
- * not emit; the host reports it. The BSDF stays what the GLSL says: a lamp may reflect as well. */
+ * not emit, which the host reports. The BSDF stays what the GLSL says: a lamp may reflect as well. */
 #ifndef RESTAGE_EMISSION_H
 #define RESTAGE_EMISSION_H
 

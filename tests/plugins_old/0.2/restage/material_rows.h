@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Parameter table lines that several materials share, so that one thing has one name, range and explanation
+/* Parameter table lines that several materials share, so that a parameter has the same name, range and tooltip
  * everywhere. Each matches a function of the shader library: roughness and remap are alpha_from_roughness
- * (microfacet.glsl), multiscatter is multiscatter.glsl, the coat is layered_coat_of (layered.glsl). Sugar: a plugin may
- * write its own lines. */
+ * (microfacet.glsl), multiscatter is multiscatter.glsl, the coat is layered_coat_of (layered.glsl). A convenience: a
+ * plugin may write its own lines. */
 #ifndef RESTAGE_MATERIAL_ROWS_H
 #define RESTAGE_MATERIAL_ROWS_H
 
@@ -16,7 +16,7 @@
     RESTAGE_FLOAT_PARAM(id, label, 0, 1, value, RESTAGE_PARAM_TEXTURABLE, "", "Along the texture's v direction; 0 is a perfect mirror.")
 /* index: 0 = v4, 1 = v3, 2 = none */
 #define RESTAGE_ROW_REMAP(index) \
-    RESTAGE_ENUM_PARAM("remap", "Roughness scale", "v4|v3|none", index, RESTAGE_PARAM_ADVANCED, "How roughness becomes the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as given.")
+    RESTAGE_ENUM_PARAM("remap", "Roughness scale", "v4|v3|none", index, RESTAGE_PARAM_ADVANCED, "How roughness maps to the microfacet alpha: pbrt-v4's square root, pbrt-v3's polynomial, or as given.")
 #define RESTAGE_ROW_DISTRIBUTION \
     RESTAGE_ENUM_PARAM("distribution", "Distribution", "ggx|beckmann", 0, RESTAGE_PARAM_ADVANCED, "Shape of the microfacets: GGX has the longer tails.")
 #define RESTAGE_ROW_MULTISCATTER \
@@ -26,7 +26,7 @@
     RESTAGE_COLOR_PARAM(eta_id, "Index of refraction", 0, 10, 0.200438f, 0.924033f, 1.102212f, RESTAGE_PARAM_TEXTURABLE, "", "Real part, for red, green and blue."), \
     RESTAGE_COLOR_PARAM(k_id, "Absorption", 0, 20, 3.912949f, 2.452848f, 2.142188f, RESTAGE_PARAM_TEXTURABLE, "", "Imaginary part of the index of refraction."), \
     RESTAGE_COLOR_PARAM("reflectance", "Reflectance", 0, 1, 0.9f, 0.9f, 0.9f, RESTAGE_PARAM_TEXTURABLE, "", "Of the metal at normal incidence; used instead of the optical constants when the switch below is on."), \
-    RESTAGE_BOOL_PARAM("use_reflectance", "Use reflectance", 0, 0, "Use the colour, not the optical constants.")
+    RESTAGE_BOOL_PARAM("use_reflectance", "Use reflectance", 0, 0, "Use the colour instead of the optical constants.")
 #define RESTAGE_ROWS_COAT(eta_id) \
     RESTAGE_FLOAT_PARAM("thickness", "Coat thickness", 0, 10, 0.01f, RESTAGE_PARAM_TEXTURABLE, "", "Of the coat, in mean free paths of its medium."), \
     RESTAGE_FLOAT_PARAM(eta_id, "Coat index of refraction", 1, 3, 1.5f, RESTAGE_PARAM_TEXTURABLE, "", "Of the coat relative to the outside."), \

@@ -68,7 +68,7 @@ typedef struct RestageParam {
     {sizeof(RestageParam), RESTAGE_TABLE, flags, 0, 0, 0, 0, 0, {0}, id, label, "", file, tooltip}
 /* clang-format on */
 
-/* A value on its way through the ABI. `ref`, when it is a texture, replaces v. */
+/* A value as it crosses the ABI. `ref`, if it is a texture, replaces v. */
 typedef struct RestageValue {
     RESTAGE_SIZE(RestageValue);
     uint32_t type; /* RestageType */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What importers push and exporters pull: the scene in plain C structs.
+/* The scene in plain C structs: importers push it, exporters pull it.
  *
  * Handles are 1-based and per kind; 0 is none. Matrices are column-major double[16], object to world, right-handed or
  * mirrored as they come. Lengths are in the scene's own unit. Colours are linear sRGB primaries; radiometric values are
@@ -17,7 +17,7 @@ extern "C" {
 
 typedef uint32_t RestageHandle;
 
-/* What a value was before it was reduced to what the scene can hold: a spectrum that became a colour. */
+/* A value as it was in the file, before it was reduced to what the scene can hold: a spectrum that became a colour. */
 typedef struct RestageOriginValue {
     RESTAGE_SIZE(RestageOriginValue);
     uint32_t reserved; /* 0 */
@@ -25,7 +25,7 @@ typedef struct RestageOriginValue {
     const char* text;  /* in the format's own notation */
 } RestageOriginValue;
 
-/* Where a thing came from, for exporters of the same format. The host reads only the ids: once a value is
+/* The origin of a thing, for exporters of the same format. The host reads only the ids: once a value is
  * edited, the entry with its id is dropped; once any value is, entries with "*" are dropped. */
 typedef struct RestageOrigin {
     RESTAGE_SIZE(RestageOrigin);
@@ -67,15 +67,15 @@ typedef struct RestageImage { /* an image file, read by the host; or pixels, whe
     const float* pixels; /* linear, or NULL when `path` is given */
 } RestageImage;
 
-/* `type` is that of a texture plugin (restage/texture.h), the values are those of its table. Shipped are, among others:
+/* `type` names a texture plugin (restage/texture.h); the values are those of its table. Shipped types include:
  *   constant      value
  *   imagemap      the image of RestageTexture.image; scale, invert, wrap
  *   scale         tex, scale              tex * scale
  *   mix           tex1, tex2, amount      (1 - amount) tex1 + amount tex2
  *   checkerboard  tex1, tex2
- * Besides, where the type is MAPPED: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping;
- * ushear, vshear (FLOAT) add v * ushear to s and u * vshear to t; uvset (INT): 1 = of the mesh's second set, where it
- * has one. Types that no plugin has are kept, written back, and shade as their `average` (COLOR). */
+ * MAPPED types also have: uscale, vscale, udelta, vdelta (FLOAT): st = uv * scale + delta, pbrt's UVMapping;
+ * ushear, vshear (FLOAT) add v * ushear to s and u * vshear to t; uvset (INT): 1 = the mesh's second set, if it has
+ * one. Types without a plugin are kept, written back, and shade as their `average` (COLOR). */
 typedef struct RestageTexture {
     RESTAGE_SIZE(RestageTexture);
     const char* name; /* "" = the host invents one */
@@ -110,8 +110,8 @@ enum {
     RESTAGE_INSTANCE_HIDDEN = 2u,
     RESTAGE_INSTANCE_EMITS = 4u,
     RESTAGE_INSTANCE_TWO_SIDED = 8u, /* emission from both sides */
-    /* For exporters, with EMITS: it emits because its material does (restage/emission.h), and has no emission of its
-     * own. If the material's emission is textured, `emission` is its mean. */
+    /* For exporters, with EMITS: it emits because its material does (restage/emission.h), not by its own emission. If
+     * the material's emission is textured, `emission` is its mean. */
     RESTAGE_INSTANCE_EMITS_BY_MATERIAL = 16u,
     /* alpha above 0 stops every ray, as in pbrt-v3. Without it alpha is the fraction of rays that is stopped. */
     RESTAGE_INSTANCE_ALPHA_MASK = 32u,
@@ -125,7 +125,7 @@ typedef struct RestageInstance {
     const RestageOrigin* origin;
     RestageHandle mesh, material, group;
     RestageHandle alpha_texture; /* scalar, or 0 */
-    RestageHandle interior, exterior; /* media, 0 = vacuum; used where `has_medium_interface` */
+    RestageHandle interior, exterior; /* media, 0 = vacuum; used if `has_medium_interface` */
     uint32_t has_medium_interface;
     uint32_t flags;
     float alpha; /* constant when alpha_texture is 0 */
@@ -150,7 +150,7 @@ typedef enum RestageFalloff {
     RESTAGE_FALLOFF_SMOOTH = 0, /* t^2 (3 - 2t): pbrt-v4 */
     RESTAGE_FALLOFF_QUARTIC = 1 /* t^4: pbrt-v3 */
 } RestageFalloff;
-enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: in the scene, but lights nothing */
+enum { RESTAGE_LIGHT_HIDDEN = 1u }; /* switched off: in the scene, but does not emit */
 typedef struct RestageLight {
     RESTAGE_SIZE(RestageLight);
     const char* name; /* "" = the host invents one */
@@ -177,8 +177,8 @@ typedef struct RestageEnvironment {
     double light_to_world[16]; /* rotation (and mirror) */
     uint32_t hidden_from_camera; /* lights the scene, but camera rays that miss everything see black */
     uint32_t sky_value_count;
-    /* "", or the type of a sky plugin that makes the image of sky_values (restage/sky.h). To exporters the image is
-     * there all the same. An importer may leave `image` 0: the host makes it, where it has the plugin. */
+    /* "", or the type of the sky plugin that generates the image from sky_values (restage/sky.h). Exporters still get
+     * the image. An importer may leave `image` 0: the host generates it if it has the plugin. */
     const char* sky;
     const RestageValue* sky_values;
 } RestageEnvironment;
@@ -218,7 +218,7 @@ typedef struct RestageFilm {
     float filter_params[2]; /* gaussian: sigma | mitchell: B C | sinc: tau */
     float exposure; /* linear factor on the film (pbrt-v4 sensor), 1 = none */
     const char* filename; /* as requested by the scene file, "" = none */
-    uint32_t unexposed; /* to the host: 1 = the file has light in its own units and no exposure; the host meters one */
+    uint32_t unexposed; /* for the host: 1 = the file has light in its own units and no exposure; the host meters one */
 } RestageFilm;
 
 typedef struct RestageSettings {
@@ -234,7 +234,8 @@ typedef enum RestageFate { RESTAGE_KEPT = 0, RESTAGE_APPROXIMATED = 1, RESTAGE_D
 #define RESTAGE_EXPORTER1 "restage.exporter/1"
 
 /* Where an importer writes. Every function [worker], one thread at a time; data is copied before it returns.
- * A returned handle of 0 means the host refused (out of memory, invalid data) and recorded why: go on or give up. */
+ * A returned handle of 0 means the host refused (out of memory, invalid data) and recorded why: continue or return 0.
+ */
 typedef struct RestageSceneWriter1 {
     RESTAGE_SIZE(RestageSceneWriter1);
     void* ctx;
@@ -262,7 +263,7 @@ typedef struct RestageSceneWriter1 {
     /* Every option of the importer's table, in its order, set or default; valid until load returns. */
     const RestageValue* options;
     uint32_t option_count;
-    /* As material_table, of a texture plugin; with the lines of its map (uscale ..) where it has one. */
+    /* Likewise for the texture plugin for `type`; a MAPPED type's includes the lines of its map (uscale ..). */
     const RestageParam* (*texture_table)(void* ctx, const char* type, uint32_t* count);
 } RestageSceneWriter1;
 
@@ -275,7 +276,8 @@ typedef struct RestageImporter1 {
     int (*probe)(const char* path, const void* head, size_t head_size);
     /* [worker] 1 = done (perhaps with a report), 0 = broken: error() has been called. */
     int (*load)(const char* path, const RestageSceneWriter1* out);
-    const RestageParam* options; /* for example `up` (ENUM y|z); NULL = none. `load` finds the values at its writer */
+    const RestageParam*
+        options; /* for example `up` (ENUM y|z); NULL = none. `load` finds the values in its writer's `options` */
     uint32_t option_count;
 } RestageImporter1;
 
@@ -322,7 +324,8 @@ typedef struct RestageExporter1 {
     const char* extensions;
     const RestageParam* options; /* for example `version` (ENUM v4|v3), `textures` (ENUM copy|reference) */
     uint32_t option_count;
-    /* [worker] Writes `path` and files beside it; 1 = done, 0 = error() has been called. Same scene, same bytes. */
+    /* [worker] Writes `path` and files in its folder; 1 = done, 0 = error() has been called. The same scene gives the
+     * same bytes. */
     int (*save)(const char* path, const RestageSceneReader1* in, const RestageValue* options, uint32_t option_count);
 } RestageExporter1;
 

@@ -23,7 +23,7 @@ extern "C" {
 
 #define RESTAGE_TABLE1 "restage.table/1"
 
-/* The file and its words' destination, both the host's. [worker] Every function, only during read, on its thread. */
+/* The file and the destination of its words. [worker] Every function, only during read, on its thread. */
 typedef struct RestageTableFile1 {
     RESTAGE_SIZE(RestageTableFile1);
     uint32_t reserved;
@@ -31,10 +31,10 @@ typedef struct RestageTableFile1 {
     const char* path; /* for messages only */
     uint64_t length;  /* of the file, in bytes */
     /* Copies `count` bytes from `offset` on. 1 = done; 0 = fewer exist, or reading failed: the host has
-     * recorded why, give up. */
+     * recorded why; return 0. */
     int (*bytes)(void* ctx, uint64_t offset, uint64_t count, void* out);
     /* Appends `count` zero words and returns them, valid until the next call. NULL = more than the host takes
-     * (1 GiB per table): recorded, give up. */
+     * (1 GiB per table): recorded; return 0. */
     uint32_t* (*append)(void* ctx, uint64_t count);
     /* A line for the log: "3.1 % of the entries were not measured". The host prepends the path. */
     void (*note)(void* ctx, const char* utf8_line);

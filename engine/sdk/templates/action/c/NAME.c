@@ -1,5 +1,5 @@
-/* @LABEL@: a row of copies of the selected objects, to begin with. What the functions must fulfil is said in
- * <restage/action.h>; `restage check` tests it. */
+/* @LABEL@: a row of copies of the selected objects, to begin with. <restage/action.h> states the
+ * requirements; `restage check` tests them. */
 #include <restage/action.h>
 
 static const RestageParam params[] = {
@@ -7,7 +7,7 @@ static const RestageParam params[] = {
     RESTAGE_FLOAT_PARAM("step", "Step", -1000, 1000, 1, 0, "", "From one to the next along x, in units of the scene."),
 };
 
-/* [worker] `scene` goes on showing what was there; `edits` is what changes, all of it one step to undo. */
+/* [worker] `scene` keeps showing the scene as it was; `edits` records the changes, all of them one undo step. */
 static int run(const RestageSceneReader1* scene, const RestageSelection1* selection, const RestageValue* values,
                uint32_t count, RestageEditWriter1* edits) {
     const int copies = RESTAGE_AT(RestageValue, values, 0).i; /* in the order of the table */
@@ -34,14 +34,14 @@ static const RestageAction1 action = {
     .size = sizeof(RestageAction1),
     .id = "@NAME@",
     .label = "@LABEL@",
-    .tooltip = "What somebody who looks for an action reads about it.",
+    .tooltip = "One sentence for users who are choosing an action.",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
     .flags = RESTAGE_ACTION_NEEDS_SELECTION,
     .run = run,
 };
 
-/* [main] Describes the panel anew each time it is drawn. */
+/* [main] Describes the panel each time it is drawn. */
 static void draw(const RestageUi1* ui, void* ctx) {
     ui->param(ctx, "copies");
     ui->param(ctx, "step");

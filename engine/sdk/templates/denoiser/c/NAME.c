@@ -1,13 +1,13 @@
 /* @LABEL@: each pixel becomes a weighted mean of its neighbours; neighbours whose albedo or normal differ count less,
- * so that edges stay. (A cross-bilateral filter, Eisemann and Durand 2004, Petschnigg et al. 2004.) What a denoiser
- * must fulfil is said in <restage/denoiser.h>; `restage check` tests it. */
+ * so that edges stay. (A cross-bilateral filter, Eisemann and Durand 2004, Petschnigg et al. 2004.)
+ * <restage/denoiser.h> states the requirements; `restage check` tests them. */
 #include <float.h>
 #include <restage/denoiser.h>
 #include <stdlib.h>
 
 static int is_finite(float x) { return x - x == 0.0f; }
 
-/* The squared distance of two pixels of a guide; 0 where there is no guide, or where it is no number. */
+/* The squared distance of two pixels of a guide; 0 if there is no guide, or if it is non-finite. */
 static float distance2(const float* guide, size_t a, size_t b) {
     float sum = 0;
     int c;
@@ -29,7 +29,8 @@ static void filter_pixel(const RestageDenoiseJob* job, const float* color, int x
             const float* rgb = color + 3 * there;
             double weight;
             if (i < 0 || j < 0 || i >= width || j >= height) continue;
-            if (!is_finite(rgb[0]) || !is_finite(rgb[1]) || !is_finite(rgb[2])) continue; /* one bad pixel stays one */
+            if (!is_finite(rgb[0]) || !is_finite(rgb[1]) || !is_finite(rgb[2]))
+                continue; /* a non-finite pixel does not spread */
             weight = 1.0 / ((1.0 + 200.0 * distance2(job->albedo, here, there)) *
                             (1.0 + 50.0 * distance2(job->normal, here, there)));
             for (c = 0; c < 3; ++c)
@@ -42,7 +43,7 @@ static void filter_pixel(const RestageDenoiseJob* job, const float* color, int x
     }
 }
 
-/* [any] A denoiser that needs a device or a driver says here whether it is there. */
+/* [any] A denoiser that needs a device or a driver checks for it here. */
 static int available(const char** reason) {
     *reason = "";
     return 1;
@@ -52,7 +53,7 @@ static int available(const char** reason) {
 static int run(const RestageDenoiseJob* job, const char** reason) {
     const int radius = 3;
     const size_t bytes = (size_t)job->width * job->height * 3 * sizeof(float);
-    float* color = (float*)malloc(bytes); /* the output may lie where the picture does */
+    float* color = (float*)malloc(bytes); /* the output may be the same memory as the picture */
     uint32_t x, y;
     if (!color) {
         *reason = "out of memory";

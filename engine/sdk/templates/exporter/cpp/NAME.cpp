@@ -1,5 +1,5 @@
-// @LABEL@: writes the triangles of a scene as text, after the manner of Wavefront's OBJ, in world space. What an
-// exporter must fulfil is said in <restage/scene_io.h>; `restage check` tests it.
+// @LABEL@: writes the triangles of a scene as text, after the manner of Wavefront's OBJ, in world space.
+// <restage/scene_io.h> states the requirements of an exporter; `restage check` tests them.
 #include <restage/scene_io.h>
 #include <cerrno>
 #include <charconv>
@@ -13,12 +13,12 @@
 
 namespace {
 
-// The user's choices: a widget each in the editor, --set NAME=VALUE at the command line.
+// The options: one widget each in the editor, --set NAME=VALUE on the command line.
 constexpr RestageParam options[] = {
-    RESTAGE_BOOL_PARAM("hidden", "Hidden objects", 0, 0, "Objects that are hidden are written, too."),
+    RESTAGE_BOOL_PARAM("hidden", "Hidden objects", 0, 0, "Hidden objects are written, too."),
 };
 
-// The values of the table, in its order; all are given.
+// The values of the table, in its order; all are present.
 struct Options {
     bool hidden;
 
@@ -36,11 +36,11 @@ class Writing {
             RestageInstance instance{};
             if (!in_.instance(in_.ctx, handle, &instance)) continue; // a hole: it was removed
             if (options_.hidden || !(instance.flags & RESTAGE_INSTANCE_HIDDEN)) object(instance);
-            // The answer 0 means: stop.
+            // 0 means: stop.
             if (!in_.progress(in_.ctx, float(handle) / float(count), "writing")) return false;
         }
         const uint32_t lights = in_.count(in_.ctx, RESTAGE_KIND_LIGHT);
-        if (lights > 0) // what the format cannot hold is reported, not silently lost
+        if (lights > 0) // what the format cannot hold is reported, not dropped silently
             in_.report(in_.ctx, RESTAGE_DROPPED, (std::to_string(lights) + " lights").c_str(), "the format has none");
         return true;
     }
@@ -74,7 +74,7 @@ class Writing {
         file_ << ' ' << std::string_view(text, size_t(std::to_chars(text, text + sizeof text, float(x)).ptr - text));
     }
 
-    static std::string line_of(std::string name) { // a name may hold anything
+    static std::string line_of(std::string name) { // a name may contain anything
         for (char& c : name)
             if (c == '\n' || c == '\r') c = ' ';
         return name;
@@ -86,7 +86,7 @@ class Writing {
     uint64_t first_ = 1; // vertices count from 1, through the whole file
 };
 
-// Into a file beside it first: what was there stays until the new one is complete.
+// Writes to a temporary file first: an existing file stays until the new one is complete.
 bool write(const std::filesystem::path& path, const RestageSceneReader1& in, Options options) {
     std::filesystem::path part = path;
     part += ".part";

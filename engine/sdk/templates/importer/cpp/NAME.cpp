@@ -2,7 +2,7 @@
 //   mesh NAME R G B   a mesh begins, in this colour
 //   v X Y Z           a vertex of it
 //   t A B C           a triangle of its vertices, which count from 1
-// What an importer must fulfil is said in <restage/scene_io.h>; `restage check` tests it.
+// <restage/scene_io.h> states the requirements of an importer; `restage check` tests them.
 #include <restage/scene_io.h>
 #include <algorithm>
 #include <charconv>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view first_line = "@NAME@ 1";
 
-// The words of a line, one after the other. Numbers are read the same in every locale.
+// The words of a line, in order. Numbers do not depend on the locale.
 struct Words {
     std::string_view rest;
 
@@ -52,7 +52,7 @@ class Reading {
         double done = 0;
         while (std::getline(file, text)) {
             done += double(text.size()) + 1;
-            // The answer 0 means: stop. Nothing that was written so far is used then.
+            // 0 means: stop. The host then discards everything written so far.
             if (line_ % 1000 == 0 && !out_.progress(out_.ctx, float(done / size), "reading")) return false;
             ++line_;
             if (line_ == 1 ? !head(text) : !line({text})) return false;
@@ -89,7 +89,7 @@ class Reading {
         }
         if (keyword == "t") {
             for (int i = 0; i < 3; ++i) {
-                uint32_t vertex = 0; // never believe an index of a file
+                uint32_t vertex = 0; // never trust an index from a file
                 if (!words.number(vertex) || vertex < 1 || vertex > positions_.size() / 3)
                     return broken("expected: t A B C, each the number of a vertex above");
                 indices_.push_back(vertex - 1);
@@ -98,17 +98,17 @@ class Reading {
         }
         // Further keywords go here.
 
-        // What is not understood is reported: the user sees it, and goes on.
+        // Unknown keywords are reported, and reading continues.
         out_.report(out_.ctx, RESTAGE_DROPPED, path_, line_, ("\"" + std::string(keyword) + "\"").c_str(),
                     "is not known");
         return true;
     }
 
-    // What was gathered becomes a mesh, a material and an object that has both. A handle of 0 means that the host has
+    // The collected triangles become a mesh, a material and an object with both. A handle of 0 means that the host has
     // refused the thing, and has reported why.
     bool finish_mesh() {
         if (indices_.empty()) {
-            if (!positions_.empty()) // what is not used is reported, not silently lost
+            if (!positions_.empty()) // unused data is reported, not dropped silently
                 out_.report(out_.ctx, RESTAGE_DROPPED, path_, line_, ("mesh \"" + name_ + "\"").c_str(),
                             "has no triangles");
             positions_.clear();
@@ -124,7 +124,7 @@ class Reading {
         std::memcpy(color.v, color_, sizeof color_);
         RestageMaterialDesc material{};
         material.name = name_.c_str();
-        material.type = "diffuse"; // of any material plugin; its table says which values it takes
+        material.type = "diffuse"; // any material plugin's; its table defines the values
         material.values = &color, material.value_count = 1;
 
         RestageInstance instance{};

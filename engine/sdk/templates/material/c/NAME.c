@@ -3,7 +3,7 @@
 
 static const RestageParam params[] = {
     RESTAGE_COLOR_PARAM("tint", "Tint", 0, 1, 0.8f, 0.4f, 0.2f, RESTAGE_PARAM_TEXTURABLE, "",
-                        "The share of light that comes back."),
+                        "Fraction of light that is reflected."),
 };
 
 static const RestageMaterial1 material = {
@@ -15,7 +15,7 @@ static const RestageMaterial1 material = {
     .glsl_file = "@NAME@.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "What somebody who looks for a material reads about it.",
+    .tooltip = "One sentence for users who are choosing a material.",
 };
 
 RESTAGE_PLUGIN("@ID@", "0.1.0", {RESTAGE_MATERIAL1, &material})

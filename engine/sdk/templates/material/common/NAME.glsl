@@ -1,5 +1,5 @@
-// @LABEL@: Lambert's diffuse reflection, f = tint / pi, to begin with. What the four functions must fulfil is said in
-// <restage/material.h>; `restage check` tests it.
+// @LABEL@: Lambert's diffuse reflection, f = tint / pi, to begin with. <restage/material.h> states the
+// requirements of the four functions; `restage check` tests them.
 #include <restage/v1/sampling.glsl>
 
 Spectrum @NAME@_eval(@NAME@_Params m, vec3 wo, vec3 wi) {
@@ -16,7 +16,7 @@ BsdfSample @NAME@_sample(@NAME@_Params m, vec3 wo, vec3 u) {
     if (!positive(pdf) || wo.z == 0.0)
         return BSDF_NONE;
     if (wo.z < 0.0)
-        wi.z = -wi.z; // seen from the back: both sides are alike
+        wi.z = -wi.z; // from the back: both sides behave the same
     return BsdfSample(wi, m.tint, pdf, BSDF_REFLECT, 1.0);
 }
 

@@ -6,7 +6,7 @@ namespace {
 using namespace restage::sdk;
 
 constexpr RestageParam params[] = {
-    color("tint", "Tint", {0.8f, 0.4f, 0.2f}, {.tooltip = "The share of light that comes back.", .texturable = true}),
+    color("tint", "Tint", {0.8f, 0.4f, 0.2f}, {.tooltip = "Fraction of light that is reflected.", .texturable = true}),
 };
 
 constexpr RestageMaterial1 material{
@@ -18,7 +18,7 @@ constexpr RestageMaterial1 material{
     .glsl_file = "@NAME@.glsl",
     .params = params,
     .param_count = RESTAGE_COUNT(params),
-    .tooltip = "What somebody who looks for a material reads about it.",
+    .tooltip = "One sentence for users who are choosing a material.",
 };
 
 } // namespace

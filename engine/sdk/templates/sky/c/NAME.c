@@ -1,11 +1,11 @@
-/* @LABEL@: one colour at the zenith, another at the horizon, a third below it, and a sun. */
+/* @LABEL@: a colour at the zenith, one at the horizon, one below it, and a sun. */
 #include <restage/sky.h>
 #include <string.h>
 
 static const RestageParam params[] = {
-    RESTAGE_COLOR_PARAM("zenith", "Zenith", 0, 10, 0.15f, 0.3f, 0.8f, 0, "", "What shines straight from above."),
-    RESTAGE_COLOR_PARAM("horizon", "Horizon", 0, 10, 0.7f, 0.75f, 0.8f, 0, "", "What shines from all around."),
-    RESTAGE_COLOR_PARAM("ground", "Ground", 0, 10, 0.1f, 0.09f, 0.08f, 0, "", "What shines from below."),
+    RESTAGE_COLOR_PARAM("zenith", "Zenith", 0, 10, 0.15f, 0.3f, 0.8f, 0, "", "Radiance from the zenith."),
+    RESTAGE_COLOR_PARAM("horizon", "Horizon", 0, 10, 0.7f, 0.75f, 0.8f, 0, "", "Radiance from the horizon."),
+    RESTAGE_COLOR_PARAM("ground", "Ground", 0, 10, 0.1f, 0.09f, 0.08f, 0, "", "Radiance from below the horizon."),
     RESTAGE_FLOAT_PARAM("elevation", "Elevation", 0, 90, 40, 0, "deg", "Of the sun above the horizon."),
     RESTAGE_FLOAT_PARAM("strength", "Sun", 0, 10, 2, 0, "", "Irradiance of a surface that faces the sun."),
 };
@@ -14,7 +14,7 @@ static const RestageValue* value(const RestageValue* values, uint32_t count, con
     uint32_t i;
     for (i = 0; i < count; ++i)
         if (strcmp(RESTAGE_AT(RestageValue, values, i).id, id) == 0) return &RESTAGE_AT(RestageValue, values, i);
-    return NULL; /* the host gives every line of the table */
+    return NULL; /* the host passes every line of the table */
 }
 
 static int make(const RestageValue* values, uint32_t count, const RestageSkyJob1* out) {
@@ -50,7 +50,7 @@ static const RestageSky1 sky = {
     .param_count = RESTAGE_COUNT(params),
     .type = "@NAME@",
     .label = "@LABEL@",
-    .tooltip = "What somebody who looks for a sky reads about it.",
+    .tooltip = "One sentence for users who are choosing a sky.",
     .params = params,
     .make = make,
 };
