@@ -16,7 +16,7 @@ if not (PACKAGES / "restage").is_dir():
     raise pytest.UsageError(f"{PACKAGES}/restage is missing: build the target restage_python_stub, or set RESTAGE_BIN")
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def program():
     return BIN
 

@@ -10,13 +10,11 @@ import restage
 
 
 @pytest.fixture(scope="module")
-def waits(tmp_path_factory, request):
+def waits(tmp_path_factory, program):
     """The type of a denoiser that runs until it is cancelled."""
-    from conftest import BIN
-
     folder = tmp_path_factory.mktemp("plugins") / "waits"
     folder.mkdir()
-    shutil.copy(BIN.parents[1] / "tests/plugins_bad/denoiser_waits.so", folder / "waits.so")
+    shutil.copy(program.parents[1] / "tests/plugins_bad/denoiser_waits.so", folder / "waits.so")
     (folder / "plugin.json").write_text(json.dumps({
         "id": "org.example.denoiser.waits", "provides": ["restage.denoiser/1"], "version": "1.0.0", "licence": "MIT",
         "needs": {"host": ">=0.2"}, "library": "waits"}))

@@ -402,9 +402,9 @@ def test_a_file_that_would_be_written_twice_is_refused(tmp_path):
 def test_an_impossible_resume_is_reported_before_rendering(tmp_path):
     common = ["--spp", 1, "--size", "16x12"]
     assert restage("render", CORNELL, "-o", "a.exr", *common, cwd=tmp_path).returncode == 0
-    for scene, extra, says in ((CORNELL, ["--size", "20x12"], "has 16x12 pixels, not 20x12; say --size 16x12"),
-                               (CORNELL, ["--region", 0, 0, 8, 12], "has 16x12 pixels, not 8x12; say the --size and the --crop or --region"),
-                               (CORNELL, ["--size", "20x12", "--crop", 0, 0.5, 0, 1], "has 16x12 pixels, not 10x12; say the --size and the"),
+    for scene, extra, says in ((CORNELL, ["--size", "20x12"], "has 16x12 pixels, not 20x12; give --size 16x12"),
+                               (CORNELL, ["--region", 0, 0, 8, 12], "has 16x12 pixels, not 8x12; give the --size and the --crop or --region"),
+                               (CORNELL, ["--size", "20x12", "--crop", 0, 0.5, 0, 1], "has 16x12 pixels, not 10x12; give the --size and the"),
                                (CORNELL, ["--set", "White.reflectance=0.1"], 'is from another render: its changes is "", not "White.reflectance=0.1"'),
                                (ROOT / "scenes/spheres/spheres.pbrt", [], 'its scene is "cornell.pbrt", not "spheres.pbrt"')):
         size = [] if "--size" in extra else ["--size", "16x12"]
