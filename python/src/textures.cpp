@@ -95,7 +95,7 @@ TextureHandle add_texture(const Shared& w, nb::handle image, const std::optional
     };
     try {
         Edit edit{label, {}};
-        if (made) edit.changes.push_back(Change<Image>{image_id, std::nullopt, *made});
+        if (made) edit.changes.push_back(Change<Image>{image_id, std::nullopt, made});
         edit.changes.push_back(Change<Texture>{h.id, std::nullopt, std::move(texture)});
         w->edit(std::move(edit));
         try {

@@ -36,7 +36,8 @@ std::vector<scene::Id<scene::Instance>> add_meadow(Headless& h) {
     auto& session = h.editor().session_for_changes();
     const auto add = [&]<class T>(T item) {
         const scene::Id<T> id = scene::table<T>(session.scene()).next();
-        REQUIRE(session.edit(scene::insert(session.scene(), std::move(item), "add")));
+        const bool added = session.edit(scene::insert(session.scene(), std::move(item), "add")).has_value();
+        REQUIRE(added);
         return id;
     };
     const auto material = add(scene::Material{.name = "grass", .type = "diffuse"});
