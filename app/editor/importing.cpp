@@ -40,9 +40,8 @@ std::optional<plugin::ImporterEntry> importer_of_document(const DocumentContext&
     return entry && !entry->table->options.empty() ? entry : std::nullopt;
 }
 
-// A row for each option; true = one was changed. Values that are no longer valid are shown as the default.
-bool option_rows(EditContext& e, const model::Importer& importer, scene::ParamSet& values, bool focus) {
-    bool changed = false;
+// A row for each option. Values that are no longer valid are shown as the default.
+void option_rows(EditContext& e, const model::Importer& importer, scene::ParamSet& values, bool focus) {
     for (const model::Param& line : importer.options) {
         const scene::Value* set = values.find(line.id);
         if (set && !misfit(line, *set).empty()) set = nullptr;
@@ -52,20 +51,11 @@ bool option_rows(EditContext& e, const model::Importer& importer, scene::ParamSe
         }
         const ParamAsk ask = param_widget(e, line, set ? *set : scene::default_value(line), set != nullptr,
                                           "import." + importer.format + "." + line.id);
-        changed |= ask.reset || ask.value.has_value();
         if (ask.reset || (ask.value && *ask.value == scene::default_value(line)))
             values.remove(line.id);
         else if (ask.value)
             values.set(line.id, *ask.value);
     }
-    return changed;
-}
-
-scene::ParamSet fitting(const model::Importer& importer, const scene::ParamSet& values) {
-    scene::ParamSet fit;
-    for (const model::Param& line : importer.options)
-        if (const scene::Value* set = values.find(line.id); set && misfit(line, *set).empty()) fit.set(line.id, *set);
-    return fit;
 }
 
 } // namespace
@@ -82,7 +72,7 @@ void import_options_part(EditContext& e, const fs::path& file, bool focus) {
     }
     scene::ParamSet& values = state.options[importer.format];
     if (focus) ImGui::SetNextItemOpen(true);
-    const bool open = section_header("Options (Alt+O)", !fitting(importer, values).entries().empty());
+    const bool open = section_header("Options (Alt+O)", !fitting(importer.options, values).entries().empty());
     tip(fmt::format("Options for reading {}", importer.label).c_str());
     e.mark("browser.options");
     if (open) option_rows(e, importer, values, focus);
@@ -93,7 +83,7 @@ std::optional<scene::ParamSet> import_options_for(const DocumentContext& e, cons
     const auto& options = e.panel_state->importing.options;
     const auto found = entry ? options.find(entry->table->format) : options.end();
     if (found == options.end()) return std::nullopt;
-    return fitting(*entry->table, found->second);
+    return fitting(entry->table->options, found->second);
 }
 
 std::string why_not_import_again(const DocumentContext& e) {
@@ -128,7 +118,7 @@ void import_again(Editor& e) {
         bool stay = true;
         if (ImGui::Button("Import")) {
             stay = false;
-            const scene::ParamSet options = fitting(*entry->table, state->values);
+            const scene::ParamSet options = fitting(entry->table->options, state->values);
             context.panel_state->importing.options[entry->table->format] = options;
             editor.later([&editor, options] {
                 ask_unsaved(editor, "reading it again", [options](Editor& now) {

@@ -216,6 +216,14 @@ bool color_field(const char* id, float* linear, bool hdr) {
     return true;
 }
 
+scene::ParamSet fitting(model::ParamTable table, const scene::ParamSet& values) {
+    scene::ParamSet result;
+    for (const model::Param& line : table)
+        if (const scene::Value* set = values.find(line.id); set && misfit(line, *set).empty())
+            result.set(line.id, *set);
+    return result;
+}
+
 ParamAsk param_widget(EditContext& e, const model::Param& line, const scene::Value& value, bool is_set,
                       const std::string& mark, const plugin::TableReader* reader, const SlotRules* rules) {
     ParamAsk ask;

@@ -35,6 +35,9 @@ ParamAsk param_widget(EditContext& editor, const model::Param& line, const scene
                       const std::string& mark, const plugin::TableReader* reader = nullptr,
                       const SlotRules* rules = nullptr);
 
+// The values that the table accepts.
+scene::ParamSet fitting(model::ParamTable table, const scene::ParamSet& values);
+
 // A colour stored as linear and chosen in sRGB. True if changed.
 bool color_field(const char* id, float* linear, bool hdr = false);
 

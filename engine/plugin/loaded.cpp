@@ -270,36 +270,20 @@ Result<> Loaded::take_formats(const Manifest& manifest, const std::string& who) 
         }
         return {};
     };
-    RESTAGE_CHECK(take(RESTAGE_IMPORTER1, static_cast<const RestageImporter1*>(nullptr), importers,
-                       [](const RestageImporter1* t) -> Result<ImporterTable> {
-                           RESTAGE_TRY(auto declared, read_importer1(*t));
-                           if (const auto problem = check_importer(declared); !problem.empty()) return fail(problem);
-                           return ImporterTable{std::move(declared), t};
-                       }));
-    RESTAGE_CHECK(take(RESTAGE_EXPORTER1, static_cast<const RestageExporter1*>(nullptr), exporters,
-                       [](const RestageExporter1* t) -> Result<ExporterTable> {
-                           RESTAGE_TRY(auto declared, read_exporter1(*t));
-                           if (const auto problem = check_exporter(declared); !problem.empty()) return fail(problem);
-                           return ExporterTable{std::move(declared), t};
-                       }));
-    RESTAGE_CHECK(take(RESTAGE_ACTION1, static_cast<const RestageAction1*>(nullptr), actions,
-                       [](const RestageAction1* t) -> Result<ActionTable> {
-                           RESTAGE_TRY(auto declared, read_action1(*t));
-                           if (const auto problem = check_action(declared); !problem.empty()) return fail(problem);
-                           return ActionTable{std::move(declared), t};
-                       }));
-    RESTAGE_CHECK(take(RESTAGE_PANEL1, static_cast<const RestagePanel1*>(nullptr), panels,
-                       [](const RestagePanel1* t) -> Result<PanelTable> {
-                           RESTAGE_TRY(auto declared, read_panel1(*t));
-                           if (const auto problem = check_panel(declared); !problem.empty()) return fail(problem);
-                           return PanelTable{std::move(declared), t};
-                       }));
-    RESTAGE_CHECK(take(RESTAGE_SKY1, static_cast<const RestageSky1*>(nullptr), skies,
-                       [](const RestageSky1* t) -> Result<SkyTable> {
-                           RESTAGE_TRY(auto declared, read_sky1(*t));
-                           if (const auto problem = check_sky(declared); !problem.empty()) return fail(problem);
-                           return SkyTable{std::move(declared), t};
-                       }));
+    const auto take_table = [&]<class Declared, class Native>(const char* id, std::deque<Table<Declared, Native>>& list,
+                                                              auto&& read, auto&& check) {
+        return take(id, static_cast<const Native*>(nullptr), list,
+                    [&](const Native* native) -> Result<Table<Declared, Native>> {
+                        RESTAGE_TRY(auto declared, read(*native));
+                        if (const std::string problem = check(declared); !problem.empty()) return fail(problem);
+                        return Table<Declared, Native>{std::move(declared), native};
+                    });
+    };
+    RESTAGE_CHECK(take_table(RESTAGE_IMPORTER1, importers, read_importer1, check_importer));
+    RESTAGE_CHECK(take_table(RESTAGE_EXPORTER1, exporters, read_exporter1, check_exporter));
+    RESTAGE_CHECK(take_table(RESTAGE_ACTION1, actions, read_action1, check_action));
+    RESTAGE_CHECK(take_table(RESTAGE_PANEL1, panels, read_panel1, check_panel));
+    RESTAGE_CHECK(take_table(RESTAGE_SKY1, skies, read_sky1, check_sky));
     return take(RESTAGE_DENOISER1, static_cast<const RestageDenoiser1*>(nullptr), denoisers,
                 [](const RestageDenoiser1* t) -> Result<Denoiser> {
                     RESTAGE_TRY(auto declared, Denoiser::read(*t));

@@ -47,31 +47,16 @@ class Loaded {
     std::vector<std::shared_ptr<TableReader>> table_readers;
     std::deque<Inspector> inspectors; // deques: catalogues point into them
     std::deque<Denoiser> denoisers;
-    struct ImporterTable {
-        model::Importer declared;
-        const RestageImporter1* native;
+    template <class Declared, class Native>
+    struct Table {
+        Declared declared;
+        const Native* native;
     };
-    struct ExporterTable {
-        model::Exporter declared;
-        const RestageExporter1* native;
-    };
-    struct SkyTable {
-        model::Sky declared;
-        const RestageSky1* native;
-    };
-    std::deque<ImporterTable> importers;
-    std::deque<ExporterTable> exporters;
-    struct ActionTable {
-        model::Action declared;
-        const RestageAction1* native;
-    };
-    struct PanelTable {
-        model::Panel declared;
-        const RestagePanel1* native;
-    };
-    std::deque<ActionTable> actions;
-    std::deque<PanelTable> panels;
-    std::deque<SkyTable> skies;
+    std::deque<Table<model::Importer, RestageImporter1>> importers;
+    std::deque<Table<model::Exporter, RestageExporter1>> exporters;
+    std::deque<Table<model::Action, RestageAction1>> actions;
+    std::deque<Table<model::Panel, RestagePanel1>> panels;
+    std::deque<Table<model::Sky, RestageSky1>> skies;
 
   private:
     Loaded() = default;

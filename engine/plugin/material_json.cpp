@@ -32,13 +32,7 @@ Result<model::Emission> emission(const json& object, const std::string& where) {
 Result<model::Material> material(const json& object, const std::string& where) {
     RESTAGE_CHECK(know(object, {"type", "label", "prefix", "glsl", "flags", "tooltip", "params", "emission"}, where));
     model::Material m;
-    RESTAGE_TRY(m.type, json_text(object, "type", nullptr, where));
-    RESTAGE_TRY(m.label, json_text(object, "label", m.type.c_str(), where));
-    RESTAGE_TRY(m.prefix, json_text(object, "prefix", m.type.c_str(), where));
-    RESTAGE_TRY(m.glsl_file, json_text(object, "glsl", nullptr, where));
-    RESTAGE_CHECK(json_flags(object, flag_words, where, m));
-    RESTAGE_TRY(m.tooltip, json_text(object, "tooltip", "", where));
-    RESTAGE_TRY(m.params, json_params(object, where));
+    RESTAGE_CHECK(json_shader(object, flag_words, where, m));
     if (const auto it = object.find("emission"); it != object.end()) {
         RESTAGE_TRY(m.emission, emission(*it, where + ".\"emission\""));
     }

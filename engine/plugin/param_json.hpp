@@ -54,6 +54,20 @@ Result<> json_flags(const nlohmann::json& object, const Word<bool T::*> (&words)
 // "params" of the object; empty if it has none.
 Result<std::vector<model::Param>> json_params(const nlohmann::json& object, const std::string& where);
 
+// The keys that tables with GLSL have in common.
+template <class T, std::size_t n>
+Result<> json_shader(const nlohmann::json& object, const Word<bool T::*> (&flags)[n], const std::string& where,
+                     T& out) {
+    RESTAGE_TRY(out.type, json_text(object, "type", nullptr, where));
+    RESTAGE_TRY(out.label, json_text(object, "label", out.type.c_str(), where));
+    RESTAGE_TRY(out.prefix, json_text(object, "prefix", out.type.c_str(), where));
+    RESTAGE_TRY(out.glsl_file, json_text(object, "glsl", nullptr, where));
+    RESTAGE_CHECK(json_flags(object, flags, where, out));
+    RESTAGE_TRY(out.tooltip, json_text(object, "tooltip", "", where));
+    RESTAGE_TRY(out.params, json_params(object, where));
+    return {};
+}
+
 // The tables of one kind in a manifest's text: each element of the list `key`, read by `read(object, where)`. Empty if
 // there is no such key.
 template <class Table, class Read>

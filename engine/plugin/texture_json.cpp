@@ -15,13 +15,7 @@ constexpr Word<bool model::Texture::*> flag_words[] = {
 Result<model::Texture> texture(const json& object, const std::string& where) {
     RESTAGE_CHECK(know(object, {"type", "label", "prefix", "glsl", "flags", "tooltip", "params"}, where));
     model::Texture t;
-    RESTAGE_TRY(t.type, json_text(object, "type", nullptr, where));
-    RESTAGE_TRY(t.label, json_text(object, "label", t.type.c_str(), where));
-    RESTAGE_TRY(t.prefix, json_text(object, "prefix", t.type.c_str(), where));
-    RESTAGE_TRY(t.glsl_file, json_text(object, "glsl", nullptr, where));
-    RESTAGE_CHECK(json_flags(object, flag_words, where, t));
-    RESTAGE_TRY(t.tooltip, json_text(object, "tooltip", "", where));
-    RESTAGE_TRY(t.params, json_params(object, where));
+    RESTAGE_CHECK(json_shader(object, flag_words, where, t));
     return t;
 }
 

@@ -95,11 +95,8 @@ bool run(SelectContext& e, const plugin::PanelEntry& panel, const std::string& i
                       panel.plugin->name() + ": its panel runs \"" + id + "\", which is not one of its actions");
         return false;
     }
-    scene::ParamSet fitting;
-    for (const model::Param& line : action->table->params)
-        if (const scene::Value* v = values.find(line.id); v && misfit(line, *v).empty()) fitting.set(line.id, *v);
     if (!why_not_now(e, *action->table).empty()) return false;
-    e.later([&e, action = *action, fitting = std::move(fitting)] { start_action(e, action, fitting); });
+    e.later([&e, action = *action, its = fitting(action->table->params, values)] { start_action(e, action, its); });
     return true;
 }
 

@@ -18,6 +18,21 @@ struct TextureSite {
 
 const uint TEXTURE_REFLECTANCE = 0u, TEXTURE_UNBOUNDED = 1u, TEXTURE_DATA = 2u; // use_
 
+#ifdef RESTAGE_TEXTURE_SITES
+// The site's place in texture space, rows * world + origin; w: the width of a sample there, an eighth of a pixel, as in
+// pbrt-v4 from 64 samples per pixel on.
+vec4 texture_space(TextureSite at, mat3 rows, vec3 origin) {
+    float scale = max(length(rows[0]), max(length(rows[1]), length(rows[2])));
+    return vec4(at.place.world * rows + origin, 0.125 * at.place.footprint * scale);
+}
+// Of a texture whose parameters are x_from_x ... z_from_z and origin_x ... origin_z.
+#define TEXTURE_SPACE(m, at)                                                                                           \
+    texture_space(at,                                                                                                  \
+                  mat3(m.x_from_x, m.x_from_y, m.x_from_z, m.y_from_x, m.y_from_y, m.y_from_z, m.z_from_x, m.z_from_y, \
+                       m.z_from_z),                                                                                    \
+                  vec3(m.origin_x, m.origin_y, m.origin_z))
+#endif
+
 // A colour from RGB. The slot that reads the texture decides whether it is a reflectance, unbounded, or three plain numbers (a
 // normal, an opacity).
 Spectrum texture_color(TextureSite at, vec3 rgb) {
