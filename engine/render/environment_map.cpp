@@ -1,13 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/environment_map.hpp"
 
-#include "render/alias_table.hpp"
+#include "render/cdf_table.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace restage::render {
+namespace {
+
+// Like environment_texel in shaders/lib/environment.glsl.
+std::size_t texel(int width, int height, scene::Mapping mapping, int x, int y) {
+    if (mapping == scene::Mapping::octahedral) {
+        if (x < 0 || x >= width) x = x < 0 ? -1 - x : 2 * width - 1 - x, y = height - 1 - y;
+        if (y < 0 || y >= height) x = width - 1 - x, y = y < 0 ? -1 - y : 2 * height - 1 - y;
+    } else {
+        x = (x + width) % width;
+        y = std::clamp(y, 0, height - 1);
+    }
+    return std::size_t(y) * std::size_t(width) + std::size_t(x);
+}
+
+void make_tables(EnvironmentMap& map, scene::Mapping mapping) {
+    const int w = int(map.width), h = int(map.height);
+    std::vector<double> rows(std::size_t(h) + 1), cells(std::size_t(w) + 1);
+    map.columns.reserve(rows.size() * cells.size());
+    for (int y = 0; y <= h; ++y) {
+        const float y0 = y == 0 ? 0.5f : 0.f, y1 = y == h ? 0.5f : 1.f, my = 0.5f * (y0 + y1); // part within the image
+        const auto column = [&](int x) { // density at the cell's middle height
+            const float a = map.texels[texel(w, h, mapping, x, y - 1)].w, b = map.texels[texel(w, h, mapping, x, y)].w;
+            return a + (b - a) * my;
+        };
+        float left = column(-1);
+        rows[std::size_t(y)] = 0;
+        for (int x = 0; x <= w; ++x) {
+            const float x0 = x == 0 ? 0.5f : 0.f, x1 = x == w ? 0.5f : 1.f;
+            const float right = column(x);
+            // the integral of a bilinear function is its value in the middle times the area
+            cells[std::size_t(x)] =
+                double(left + (right - left) * 0.5f * (x0 + x1)) * double(x1 - x0) * double(y1 - y0);
+            rows[std::size_t(y)] += cells[std::size_t(x)];
+            left = right;
+        }
+        auto table = make_cdf(cells);
+        table.resize(cells.size()); // all zero: never drawn
+        map.columns.insert(map.columns.end(), table.begin(), table.end());
+    }
+    map.rows = make_cdf(rows);
+}
+
+} // namespace
 
 EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mapping mapping) {
     EnvironmentMap map;
@@ -43,10 +86,16 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mappin
         }
     }
     map.mean = glm::vec3(sum / total);
-    map.alias = make_alias_table(weights);
-    if (map.alias.empty()) map.texels.clear();
-    for (std::size_t i = 0; i < map.texels.size(); ++i)
-        map.texels[i].w = map.alias[i].pmf * float(n);
+    double all = 0;
+    for (double w : weights)
+        all += w;
+    if (!(all > 0)) {
+        map.texels.clear();
+        return map;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        map.texels[i].w = float(weights[i] / all * double(n));
+    make_tables(map, mapping);
     return map;
 }
 

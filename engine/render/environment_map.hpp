@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as texels with an alias table over their power, and its mean over the sphere. Shaders
-// interpolate between texels, the light-sampling density as well as the radiance (shaders/lib/light.glsl).
+// The environment as texels, with tables to draw directions by their luminance, and its mean over the sphere. Shaders
+// interpolate between texels, the light-sampling density as well as the radiance (shaders/lib/environment.glsl).
 #pragma once
 
 #include "scene/scene.hpp"
@@ -12,8 +12,11 @@ namespace restage::render {
 
 struct EnvironmentMap {
     std::uint32_t width = 0, height = 0;
-    std::vector<glm::vec4> texels;         // rgb and pmf * number of texels, row 0 on top; empty for a constant
-    std::vector<shared::AliasEntry> alias; // weight: luminance * solid angle of the texel
+    std::vector<glm::vec4> texels; // rgb and density over the unit square, row 0 on top; empty for a constant
+    // Cells between the middles of neighbouring texels, where the density is bilinear: (width + 1) * (height + 1), those at
+    // the edges halved.
+    std::vector<shared::CdfEntry> rows;    // height + 1: rows of cells
+    std::vector<shared::CdfEntry> columns; // width + 1 for each row
     glm::vec3 mean{0};                     // over the sphere, without scale
     std::size_t mended = 0;                // number of negative or non-finite values, replaced by 0
 };

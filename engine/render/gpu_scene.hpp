@@ -161,11 +161,6 @@ class GpuScene {
     std::vector<char> undecided_; // empty: none is
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
     std::vector<std::uint32_t> used_material_; // of visible instances; 0 = none
-    struct Box {
-        glm::dvec3 lower{1e300}, upper{-1e300};
-    };
-    static Box world_box(const scene::Scene&, const scene::Instance&);
-    std::vector<Box> boxes_; // world space; empty if rays cannot hit it
     EnvironmentMap environment_;
 
     GpuArray<shared::InstanceData> instances_{"instances"};
@@ -175,14 +170,15 @@ class GpuScene {
     GpuArray<std::uint32_t> texture_words_{"texture operations"};
     GpuArray<shared::ImageData> images_{"images"};
     GpuArray<shared::LightData> lights_{"lights"};
-    GpuArray<shared::AliasEntry> light_alias_{"light alias table"};
+    GpuArray<shared::CdfEntry> light_cdf_{"distributions over emitters"};
+    GpuArray<shared::LightNode> light_nodes_{"light tree"};
     GpuArray<shared::MediumData> media_{"media"};
     GpuArray<glm::vec4> env_texels_{"environment"};
-    GpuArray<shared::AliasEntry> env_alias_{"environment alias table"};
+    GpuArray<shared::CdfEntry> env_rows_{"distribution of the environment's rows"};
+    GpuArray<shared::CdfEntry> env_columns_{"distributions of the environment's columns"};
     GpuArray<float> filter_{"pixel filter"};
     GpuArray<shared::SceneData> scene_data_{"scene"};
     LightTable light_table_;
-    double radius_ = 1; // of the visible objects
     std::uint32_t quadrics_ = 0; // number that rays may hit
     bool lights_touched_ = false; // by the last sync_instances: emitters, current or former
     bool reads_files_ = false; // some material in use does; the files may have changed

@@ -280,7 +280,6 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         flat_.resize(n, 0);
         quadric_.resize(n, 0);
         mesh_of_.resize(n);
-        boxes_.resize(n);
         used_material_.resize(n, 0);
     }
     lights_touched_ = false;
@@ -320,7 +319,6 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         if (traced && nothing) record.flags |= INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
         lights_touched_ |= ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) != 0;
-        boxes_[i] = traced ? world_box(scene, *in) : Box{};
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; uploading another zero is harmless
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
@@ -361,19 +359,6 @@ std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instan
     return out;
 }
 
-GpuScene::Box GpuScene::world_box(const Scene& scene, const scene::Instance& instance) {
-    const scene::MeshData& mesh = *scene.meshes[instance.mesh].data;
-    Box box;
-    for (int k = 0; k < 8; ++k) {
-        const glm::dvec3 corner(k & 1 ? mesh.upper.x : mesh.lower.x, k & 2 ? mesh.upper.y : mesh.lower.y,
-                                k & 4 ? mesh.upper.z : mesh.lower.z);
-        const glm::dvec3 p(instance.object_to_world * glm::dvec4(corner, 1));
-        box.lower = glm::min(box.lower, p);
-        box.upper = glm::max(box.upper, p);
-    }
-    return box;
-}
-
 // all: including those not changed themselves.
 Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bool all) {
     const auto& env = scene.environment.value;
@@ -386,21 +371,13 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
                 fmt::format("environment \"{}\": {} values of its image are negative or not finite; replaced by 0",
                             env->name, environment_.mended));
         env_texels_.assign(environment_.texels);
-        env_alias_.assign(environment_.alias);
+        env_rows_.assign(environment_.rows);
+        env_columns_.assign(environment_.columns);
         RESTAGE_CHECK(env_texels_.flush(*device_));
-        RESTAGE_CHECK(env_alias_.flush(*device_));
+        RESTAGE_CHECK(env_rows_.flush(*device_));
+        RESTAGE_CHECK(env_columns_.flush(*device_));
     }
-    // Radius of the scene: of the visible objects, about their centre.
-    glm::dvec3 lower(1e300), upper(-1e300);
-    for (const Box& box : boxes_) {
-        lower = glm::min(lower, box.lower);
-        upper = glm::max(upper, box.upper);
-    }
-    const double radius = std::exchange(radius_, 1);
-    radius_ = lower.x <= upper.x ? std::max(0.5 * glm::length(upper - lower), 1e-30) : 1;
-
-    // No emitter changed, and the extent lit by the sky and distant lights is the same.
-    if (!all && !lights_touched_ && (radius == radius_ || (!env && scene.lights.live() == 0))) return {};
+    if (!all && !lights_touched_) return {}; // no emitter changed
 
     light_alpha_ = glow_ = false;
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
@@ -411,7 +388,7 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
         return out;
     };
     light_table_ =
-        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), radius_, emitter);
+        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), emitter);
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
         if (instances_[i].light_base != light_table_.light_base[i]) {
             auto record = instances_[i];
@@ -419,10 +396,12 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
             instances_.set(i, record);
         }
     lights_.assign(light_table_.lights);
-    light_alias_.assign(light_table_.alias);
+    light_cdf_.assign(light_table_.cdf);
+    light_nodes_.assign(light_table_.nodes);
     RESTAGE_CHECK(instances_.flush(*device_));
     RESTAGE_CHECK(lights_.flush(*device_));
-    return light_alias_.flush(*device_);
+    RESTAGE_CHECK(light_cdf_.flush(*device_));
+    return light_nodes_.flush(*device_);
 }
 
 namespace {
@@ -460,9 +439,10 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.texture_words = texture_words_.address();
     d.images = images_.address();
     d.lights = lights_.address();
-    d.light_alias = light_alias_.address();
+    d.light_nodes = light_nodes_.address();
+    d.light_cdf = light_cdf_.address();
     d.media = media_.address();
-    d.light_count = std::uint32_t(lights_.size());
+    d.light_roots = light_table_.roots;
     d.environment.light = light_table_.environment;
     if (const auto& env = scene.environment.value) {
         glm::dmat3 rotation(env->light_to_world); // directions are scale-free: a scale cancels
@@ -477,7 +457,8 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
         d.environment.width = environment_.width;
         d.environment.height = environment_.height;
         d.environment.texels = env_texels_.address();
-        d.environment.alias = env_alias_.address();
+        d.environment.rows = env_rows_.address();
+        d.environment.columns = env_columns_.address();
     }
     set_camera(scene, origin_, d.camera);
     const scene::Filter& filter = scene.film.value.filter;

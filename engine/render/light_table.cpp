@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_table.hpp"
 
-#include "render/alias_table.hpp"
+#include "render/cdf_table.hpp"
+#include "render/light_tree.hpp"
 #include "scene/quadric.hpp"
 #include "shared/normal.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <span>
 
 namespace restage::render {
 namespace {
@@ -102,60 +106,199 @@ double world_area(const scene::Quadric& q, const glm::dmat3& m) {
     return std::isfinite(area) ? area : 0;
 }
 
+LightData triangle_light(const glm::dmat4& place, const scene::Instance& instance, const scene::MeshData& mesh,
+                         const glm::uvec3& t, const Emitter& emits) {
+    const auto world = [&](std::uint32_t i) { return glm::dvec3(place * glm::dvec4(mesh.positions[i], 1)); };
+    const glm::dvec3 p0 = world(t.x);
+    glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
+    const bool swapped = glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0;
+    if (swapped) std::swap(b, c);
+    LightData light{};
+    const Rounding rounding = light_rounding(place, mesh, t);
+    const auto condition = std::isfinite(rounding.condition) ? std::min(rounding.condition * 16, 65535.0) : 16.0;
+    light.kind = LIGHT_TRIANGLE | (emits.two_sided ? LIGHT_TWO_SIDED : 0) | (swapped ? LIGHT_SWAPPED : 0) |
+                 std::uint32_t(std::ceil(condition)) << 16;
+    light.offset = std::isfinite(rounding.offset) ? float(rounding.offset) : 0.f;
+    light.a = p0;
+    light.b = b;
+    light.c = c;
+    light.area = float(0.5 * glm::length(glm::cross(b, c)));
+    light.value = emits.radiance;
+    return light;
+}
+
+// Do two triangles, one after the other in a mesh, make a parallelogram? If so, turns them so that each begins at the
+// corner that is only its own.
+bool make_pair(const glm::dmat4& place, const scene::MeshData& mesh, glm::uvec3& first, glm::uvec3& second) {
+    const auto world = [&](std::uint32_t i) { return glm::dvec3(place * glm::dvec4(mesh.positions[i], 1)); };
+    const auto own = [&](const glm::uvec3& t, const glm::uvec3& other) {
+        int corner = -1;
+        for (int i = 0; i < 3; ++i) {
+            const auto is = [&](std::uint32_t v) { return mesh.positions[v] == mesh.positions[t[i]]; };
+            if (is(other.x) || is(other.y) || is(other.z)) continue;
+            if (corner >= 0) return -1;
+            corner = i;
+        }
+        return corner;
+    };
+    const int i = own(first, second), k = own(second, first);
+    if (i < 0 || k < 0) return false;
+    const auto turn = [](const glm::uvec3& t, int n) { return glm::uvec3(t[n], t[(n + 1) % 3], t[(n + 2) % 3]); };
+    const glm::uvec3 a = turn(first, i), b = turn(second, k);
+    if (mesh.positions[a.y] != mesh.positions[b.z] || mesh.positions[a.z] != mesh.positions[b.y]) return false;
+    const glm::dvec3 p = world(a.x), q = world(b.x), s = world(a.y), t = world(a.z);
+    if (glm::length(p + q - s - t) > 1e-6 * (glm::length(s - p) + glm::length(t - p))) return false;
+    first = a;
+    second = b;
+    return true;
+}
+
+// The lights of one emitter as they are added to the table, and bounds for the tree.
+class EmitterBuilder {
+  public:
+    explicit EmitterBuilder(LightTable& table) : table_(table), first_(std::uint32_t(table.lights.size())) {}
+
+    // weight: of being chosen, a mean luminance times an area. corners: whose convex hull contains it. normal: of its
+    // emitting side; 0 = all directions.
+    void add(const LightData& light, double weight, std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
+        table_.lights.push_back(light);
+        weights_.push_back(std::isfinite(weight) ? weight : 0);
+        if (weights_.back() <= 0) return;
+        corners_.insert(corners_.end(), corners.begin(), corners.end());
+        normals_.push_back(normal);
+    }
+    // Sets the probabilities. nullopt, and nothing is added, if the sum of weights is 0.
+    std::optional<shared::LightNode> finish(bool two_sided) {
+        const auto cdf = make_cdf(weights_);
+        if (cdf.empty()) {
+            table_.lights.resize(first_);
+            return std::nullopt;
+        }
+        table_.cdf.insert(table_.cdf.end(), cdf.begin(), cdf.end());
+        for (std::size_t i = 0; i < cdf.size(); ++i) {
+            LightData& light = table_.lights[first_ + i];
+            light.pmf = float(cdf_probability(cdf, i));
+            if (!(light.kind & LIGHT_PAIR_END)) continue;
+            LightData& other = table_.lights[first_ + i - 1]; // one density over both
+            light.pmf = other.pmf = 0.5f * (light.pmf + other.pmf);
+        }
+        shared::LightNode node{};
+        node.first = first_;
+        node.lights = std::uint32_t(cdf.size());
+        node.intensity = float(std::min(std::accumulate(weights_.begin(), weights_.end(), 0.0), 1e30));
+        node.flags = two_sided ? LIGHT_TWO_SIDED : 0;
+        bound(node);
+        return node;
+    }
+
+  private:
+    void bound(shared::LightNode& node) const {
+        glm::dvec3 lower = corners_[0], upper = lower, axis(0);
+        for (const glm::dvec3& p : corners_) {
+            lower = glm::min(lower, p);
+            upper = glm::max(upper, p);
+        }
+        node.center = 0.5 * (lower + upper);
+        double radius = 0, spread = 1;
+        for (const glm::dvec3& p : corners_)
+            radius = std::max(radius, glm::length(p - glm::dvec3(node.center)));
+        for (const glm::dvec3& n : normals_)
+            axis += n;
+        axis = glm::length(axis) > 1e-3 ? glm::normalize(axis) : glm::dvec3(0, 0, 1);
+        for (const glm::dvec3& n : normals_)
+            spread = std::min(spread, n == glm::dvec3(0) ? -1 : glm::dot(axis, n));
+        node.radius = float(radius * (1 + 1e-6));
+        node.axis = axis;
+        node.cos_spread = float(std::max(-1.0, spread - 1e-6));
+    }
+
+    LightTable& table_;
+    std::uint32_t first_;
+    std::vector<double> weights_;
+    std::vector<glm::dvec3> corners_, normals_;
+};
+
+double mean(const Emitter& emits, std::uint32_t triangle) {
+    return emits.mean ? emits.mean(triangle) : luminance(emits.radiance);
+}
+
+void add_quadric(EmitterBuilder& builder, const scene::Quadric& q, const glm::dmat4& place, const Emitter& emits,
+                 std::uint32_t id) {
+    LightData light = quadric_light(q, place, emits);
+    light.instance = id;
+    std::array<glm::dvec3, 8> box;
+    for (unsigned i = 0; i < 8; ++i)
+        box[i] = place * glm::dvec4(i & 1 ? q.radius : -q.radius, i & 2 ? q.radius : -q.radius, i & 4 ? q.z_max : q.z_min, 1);
+    builder.add(light, world_area(q, glm::dmat3(place)) * mean(emits, 0), box, glm::dvec3(0));
+}
+
+void add_triangles(EmitterBuilder& builder, const scene::Instance& instance, const scene::MeshData& mesh,
+                   const glm::dmat4& place, const Emitter& emits, std::uint32_t id) {
+    const auto add = [&](std::uint32_t k, const glm::uvec3& t, std::uint32_t flags) {
+        LightData light = triangle_light(place, instance, mesh, t, emits);
+        light.kind |= flags;
+        light.instance = emits.varies ? id : NONE;
+        const glm::dvec3 n = glm::cross(glm::dvec3(light.b), glm::dvec3(light.c));
+        const glm::dvec3 a(light.a), corners[] = {a, a + glm::dvec3(light.b), a + glm::dvec3(light.c)};
+        builder.add(light, double(light.area) * mean(emits, k), corners, glm::normalize(n));
+    };
+    const auto count = std::uint32_t(mesh.triangles.size());
+    for (std::uint32_t k = 0; k < count; ++k) {
+        glm::uvec3 t = mesh.triangles[k];
+        glm::uvec3 next = k + 1 < count ? mesh.triangles[k + 1] : t;
+        // Emission that varies is looked up by the mesh's barycentric coordinates.
+        if (!emits.varies && k + 1 < count && make_pair(place, mesh, t, next)) {
+            add(k, t, LIGHT_PAIR);
+            add(++k, next, LIGHT_PAIR_END);
+        } else {
+            add(k, t, 0);
+        }
+    }
+}
+
+shared::LightNode lamp_node(const scene::Light& item, const LightData& light, const scene::Cone& cone) {
+    shared::LightNode node{};
+    node.intensity = float(luminance(item.value));
+    node.axis = light.b;
+    node.cos_spread = 1;
+    node.center = light.a;
+    if (!scene::light_row(item.kind).placed) node.radius = -1;
+    node.cos_reach = scene::light_row(item.kind).cone ? float(cone.edge) : -1.f;
+    return node;
+}
+
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius, const std::function<std::optional<Emitter>(Id<scene::Instance>)>& emitter) {
+                            const std::function<std::optional<Emitter>(Id<scene::Instance>)>& emitter) {
     LightTable table;
     table.light_base.assign(scene.instances.size() + 1, NONE);
-    std::vector<double> power;
-
+    std::vector<shared::LightNode> emitters;
     scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
         const auto emits = emitter(id);
         if (!emits || luminance(emits->radiance) <= 0) return;
-        const auto& mesh = *scene.meshes[instance.mesh].data;
-        if (const auto quadric = scene::quadric_of(scene.meshes[instance.mesh])) {
-            table.light_base[id.value] = std::uint32_t(table.lights.size());
-            glm::dmat4 place = instance.object_to_world;
-            place[3] -= glm::dvec4(origin, 0);
-            table.lights.push_back(quadric_light(*quadric, place, *emits));
-            table.lights.back().instance = id.value;
-            const double mean = emits->mean ? emits->mean(0) : luminance(emits->radiance);
-            power.push_back(pi * mean * (emits->two_sided ? 2 : 1) * world_area(*quadric, glm::dmat3(place)));
-            return;
-        }
-        table.light_base[id.value] = std::uint32_t(table.lights.size());
-        const double exitance = pi * luminance(emits->radiance) * (emits->two_sided ? 2 : 1);
         glm::dmat4 place = instance.object_to_world;
         place[3] -= glm::dvec4(origin, 0);
-        for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
-            const auto& t = mesh.triangles[k];
-            const auto world = [&](std::uint32_t i) { return glm::dvec3(place * glm::dvec4(mesh.positions[i], 1)); };
-            const glm::dvec3 p0 = world(t.x);
-            glm::dvec3 b = world(t.y) - p0, c = world(t.z) - p0;
-            const bool swapped = glm::dot(glm::cross(b, c), outward_normal(instance, mesh, t)) < 0;
-            if (swapped) std::swap(b, c);
-            const double area = 0.5 * glm::length(glm::cross(b, c));
-            LightData light{};
-            const Rounding rounding = light_rounding(place, mesh, t);
-            const auto condition =
-                std::isfinite(rounding.condition) ? std::min(rounding.condition * 16, 65535.0) : 16.0;
-            light.kind = LIGHT_TRIANGLE | (emits->two_sided ? LIGHT_TWO_SIDED : 0) | (swapped ? LIGHT_SWAPPED : 0) |
-                         std::uint32_t(std::ceil(condition)) << 16;
-            light.offset = std::isfinite(rounding.offset) ? float(rounding.offset) : 0.f;
-            light.a = p0;
-            light.b = b;
-            light.c = c;
-            light.area = float(area);
-            light.value = emits->radiance;
-            light.instance = emits->varies ? id.value : NONE;
-            table.lights.push_back(light);
-            const double mean = emits->mean ? emits->mean(k) / luminance(emits->radiance) : 1;
-            power.push_back(std::isfinite(area * mean) ? exitance * mean * area : 0);
-        }
+        EmitterBuilder builder(table);
+        if (const auto quadric = scene::quadric_of(scene.meshes[instance.mesh]))
+            add_quadric(builder, *quadric, place, *emits, id.value);
+        else
+            add_triangles(builder, instance, *scene.meshes[instance.mesh].data, place, *emits, id.value);
+        const auto node = builder.finish(emits->two_sided);
+        if (!node) return;
+        table.light_base[id.value] = node->first;
+        emitters.push_back(*node);
     });
+    const auto add_single = [&](LightData light, shared::LightNode node) {
+        light.pmf = 1;
+        node.first = std::uint32_t(table.lights.size());
+        node.lights = 1;
+        table.lights.push_back(light);
+        table.cdf.push_back({});
+        emitters.push_back(node);
+    };
     scene.lights.each([&](Id<scene::Light>, const scene::Light& item) {
-        if (item.hidden) return;
+        if (item.hidden || luminance(item.value) <= 0) return;
         const glm::dmat4& m = item.light_to_world;
         LightData light{};
         light.value = item.value;
@@ -164,24 +307,23 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         const scene::Cone cone = scene::cone_of(item);
         light.c = {cone.edge, cone.start, cone.falloff == scene::Falloff::quartic ? 1 : 0};
         light.kind = LIGHT_LAMP + std::uint32_t(item.kind);
-        power.push_back(scene::light_row(item.kind).power(cone, radius) * luminance(item.value));
-        table.lights.push_back(light);
+        add_single(light, lamp_node(item, light, cone));
     });
     if (scene.environment.value && luminance(environment_mean) > 0) {
         LightData light{};
         light.kind = LIGHT_ENVIRONMENT;
         table.environment = std::uint32_t(table.lights.size());
-        table.lights.push_back(light);
-        power.push_back(4 * pi * pi * radius * radius * luminance(environment_mean));
+        shared::LightNode node{};
+        node.radius = -1;
+        node.intensity = float(pi * luminance(environment_mean));
+        add_single(light, node);
     }
-    table.alias = make_alias_table(power);
-    if (table.alias.empty()) {
-        table.lights.clear();
-        table.environment = NONE;
-        table.light_base.assign(table.light_base.size(), NONE);
-    }
-    for (std::size_t i = 0; i < table.lights.size(); ++i)
-        table.lights[i].pmf = table.alias[i].pmf;
+    LightTree tree = make_light_tree(std::move(emitters));
+    table.nodes = std::move(tree.nodes);
+    table.roots = tree.roots;
+    for (std::uint32_t n = 0; n < table.nodes.size(); ++n)
+        for (std::uint32_t i = 0; i < table.nodes[n].lights; ++i)
+            table.lights[table.nodes[n].first + i].node = n;
     return table;
 }
 

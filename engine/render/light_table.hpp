@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene's lights as one table, sampled by power: a triangle of an emissive instance, a point, a spot, a distant
-// light or the environment is one entry each. World space is relative to the render origin.
+// The scene's lights as one table: a triangle of an emissive instance, a quadric, a point, a spot, a distant light or the
+// environment is one entry each; and the emitters that they belong to, in a tree. World space is relative to the render
+// origin.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -13,8 +14,10 @@
 namespace restage::render {
 
 struct LightTable {
-    std::vector<shared::LightData> lights;
-    std::vector<shared::AliasEntry> alias; // empty: nothing emits
+    std::vector<shared::LightData> lights; // those of an emitter are neighbours
+    std::vector<shared::CdfEntry> cdf;     // parallel to `lights`, a table for each emitter
+    std::vector<shared::LightNode> nodes;  // LightTree; empty: nothing emits
+    std::uint32_t roots = 0;
     std::vector<std::uint32_t> light_base; // by Id<Instance>::value; NONE if not emissive
     std::uint32_t environment = NONE;      // its index in `lights`
 };
@@ -30,11 +33,9 @@ struct Emitter {
 };
 
 // environment_mean: mean radiance of the environment over the sphere, scale applied (0 = none).
-// radius: of the scene's bounds, for lights at infinity.
 // emitter: called once per instance; nullopt = no entry, as for mixes with a null component: paths find them
 // by BSDF sampling only.
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            double radius,
                             const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter);
 
 // The outside of a triangle: its normal in world space, by the rule of shaders/path/surface.glsl.

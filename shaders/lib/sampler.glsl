@@ -45,9 +45,9 @@ uint pixel_seed(uint pixel, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^
 // Pairs of a path: two for the camera, then four per vertex.
 const uint PAIR_FILTER = 0u;
 const uint PAIR_LENS = 1u;
-uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which light, y: Russian roulette
+uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which emitter, y: Russian roulette
 uint pair_light(uint depth) { return 3u + 4u * depth; }       // a point on it
 uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction
-uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe, y: the light or its alias
+uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe
 
 #endif

@@ -56,7 +56,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             float w = 1.0;
             if (!specular && STRATEGY != 2 && inst.light_base != NONE) {
                 LightData light = LightArray(scene.lights).at[inst.light_base + prim];
-                float pdf_light = light.pmf;
+                float pdf_light = light.pmf * light_choice_pmf(scene, ray.origin, light.node);
                 if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
                     pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);
                 else
@@ -97,13 +97,12 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     if (depth >= scene.max_depth) return finite(path.radiance);
     Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
     uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
-    vec2 u_lobe = sample_pair(path.seed, path.sample_index, pair_lobe(depth));
+    float u_lobe = to_unit(sample_bits(path.seed, path.sample_index, pair_lobe(depth)).x);
     bool ok = true;
 
     // Next-event estimation
-    if (scene.light_count > 0u) {
-        LightSample light = light_sample(scene, s.p, pick.x, u_lobe.y,
-                                         sample_bits(path.seed, path.sample_index, pair_light(depth)));
+    if (scene.light_roots > 0u) {
+        LightSample light = light_sample(scene, s.p, pick.x, sample_bits(path.seed, path.sample_index, pair_light(depth)));
         if (light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
@@ -138,7 +137,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
-    BsdfSample b = material_sample(m, wo, vec3(u, u_lobe.x), rng);
+    BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
     vec3 weight = rgb_from_spectrum(b.weight);
     vec3 sums = shadow_contribution + path.radiance;
     if (shadow.tmax > 0.0) sums += shadow.origin + shadow.direction;

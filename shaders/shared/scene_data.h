@@ -39,7 +39,10 @@ RESTAGE_UINT(LIGHT_ENVIRONMENT, 1u);
 RESTAGE_UINT(LIGHT_QUADRIC, 2u); // of `instance`; area is in object space
 RESTAGE_UINT(LIGHT_LAMP, 16u); // and on, plus LAMP_*: a = position, b = axis, c = cone (shared/lamps.h)
 RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
+RESTAGE_UINT(LIGHT_PAIR, 1024u); // with the next one a parallelogram: b and c of that one are -b and -c of this one
+RESTAGE_UINT(LIGHT_PAIR_END, 2048u); // with the one before
 RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the emitting side
+RESTAGE_UINT(CDF_TOTAL, 0xffffffffu);
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);
 RESTAGE_UINT(ENV_OCTAHEDRAL, 2u);
@@ -112,23 +115,37 @@ struct ImageData { // 24 bytes
     uint pad0;
 };
 
-struct LightData { // 68 bytes
+struct LightData { // 72 bytes
     vec3 a;
     uint kind; // LIGHT_* | LIGHT_TWO_SIDED | LIGHT_SWAPPED | condition << 16 (of a triangle's place, in sixteenths; see
                // light_offset)
     vec3 b;
-    float pmf; // of being chosen
+    float pmf; // of being chosen from its emitter
     vec3 c;
     float area;
     vec3 value; // radiance, intensity or irradiance
     float offset; // of a triangle: the part of light_offset that does not depend on the ray
     uint instance; // of a quadric, or of a triangle with an emission texture or alpha; else NONE
+    uint node; // LightNode of its emitter
 };
 
-struct AliasEntry { // Vose 1991
-    float q; // keep if u < q
-    uint alias;
-    float pmf;
+struct CdfEntry { // render/cdf_table.hpp
+    uint start; // of the numbers, below CDF_TOTAL, that draw this index
+    uint guide; // entry k: the index that k / count of all numbers draws
+};
+
+// A node of the tree of emitters; render/light_tree.hpp. A mesh that shines is one emitter, however many triangles.
+struct LightNode { // 60 bytes
+    vec3 center; // of a sphere around it
+    float radius; // < 0: infinitely far
+    vec3 axis; // unit; the normals of its emitting sides are within an angle of `cos_spread` around it
+    float cos_spread;
+    float cos_reach; // it sends light up to this angle away from its normals; < 0: everywhere
+    float intensity; // luminance * area, or intensity; infinitely far: irradiance
+    uint first, count; // its children; of an emitter (count = 0) its first light
+    uint lights; // of an emitter; 0 = inner node
+    uint parent; // NONE at the root
+    uint flags; // LIGHT_TWO_SIDED
 };
 
 struct EnvironmentData {
@@ -136,8 +153,9 @@ struct EnvironmentData {
     mat3 world_from_env;
     vec3 scale;
     uint mapping;
-    address texels; // vec4[]: rgb, and the pmf of the alias table times the number of texels
-    address alias; // AliasEntry[], one per texel; 0 for a constant
+    address texels; // vec4[]: rgb, and the density with which light sampling chooses a point of the image
+    address rows; // CdfEntry[height + 1]: cells between the rows' middles; render/environment_map.hpp
+    address columns; // CdfEntry[width + 1] for each row of cells
     uint width, height;
     uint light; // its index in the lights, or NONE
     uint hidden; // 1: black for camera rays
@@ -164,11 +182,11 @@ struct MediumData {
 };
 
 struct SceneData {
-    address instances, materials, params, textures, texture_words, images, lights, light_alias, media;
+    address instances, materials, params, textures, texture_words, images, lights, light_nodes, light_cdf, media;
     EnvironmentData environment;
     CameraData camera;
     FilterData filter_;
-    uint light_count;
+    uint light_roots; // the first nodes: children of the root
     uint max_depth;
     uint russian_roulette;
     uint camera_medium;

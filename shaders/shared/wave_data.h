@@ -20,9 +20,9 @@ struct WavePush { // 128 bytes: the minimum guaranteed by Vulkan
     address materials;
     address params;
     address lights;
-    address light_alias;
+    address light_nodes;
     uint queue_first, queue_count;
-    uint light_count;
+    uint light_roots;
     uint max_depth;
     uint russian_roulette;
     float clamp_direct, clamp_indirect;

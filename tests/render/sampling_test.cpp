@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers and their uses: Owen-scrambled Sobol pairs, alias tables, the light table, maps of the
-// sphere. Each shader function is checked against its definition.
-#include "render/alias_table.hpp"
+// Random numbers and maps of the sphere: Owen-scrambled Sobol pairs, the octahedral and equirectangular maps. Each shader
+// function is checked against its definition.
 #include "render/kernel_lab.hpp"
-#include "render/light_table.hpp"
 #include "render/scene_builder.hpp"
 
 #include <algorithm>
@@ -109,120 +107,6 @@ TEST_CASE("sampler: pairs and pixels are independent") {
     INFO("mean chi-square " << sum / couples << " of 63, worst " << worst);
     CHECK(sum / couples < 63 + 4 * std::sqrt(2 * 63.0 / couples));
     CHECK(worst < 63 + 7 * std::sqrt(2 * 63.0));
-}
-
-TEST_CASE("alias table: it draws its pmf, for any weights") {
-    std::mt19937 random(3);
-    for (const std::size_t n : {1u, 2u, 7u, 1000u}) {
-        std::vector<double> weights(n);
-        for (std::size_t i = 0; i < n; ++i)
-            weights[i] = i % 5 == 3 ? 0 : std::pow(10.0, double(random() % 1000) / 1000 * 6);
-        if (n == 1) weights[0] = 2;
-        const auto table = render::make_alias_table(weights);
-        double sum = 0;
-        for (double w : weights)
-            sum += w;
-        // exact: the fraction of the unit interval that leads to each index
-        std::vector<double> drawn(n);
-        double pmf = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            drawn[i] += table[i].q / double(n);
-            drawn[table[i].alias] += (1 - table[i].q) / double(n);
-            pmf += table[i].pmf;
-        }
-        CHECK(std::abs(pmf - 1) < 1e-5);
-        for (std::size_t i = 0; i < n; ++i) {
-            CHECK(std::abs(table[i].pmf - weights[i] / sum) <= 1e-6 * weights[i] / sum);
-            CHECK(std::abs(drawn[i] - weights[i] / sum) < 1e-7);
-            if (weights[i] == 0) CHECK(drawn[i] == 0);
-        }
-    }
-    CHECK(render::make_alias_table(std::vector<double>{0, 0}).empty());
-    CHECK(render::make_alias_table(std::vector<double>{}).empty());
-}
-
-TEST_CASE("alias table: the shader draws by the pmf from many entries too") {
-    // One entry has 99 % of the weight; the other 131071 share the rest. With 24-bit numbers, the remainder of the one
-    // that chose among them has 7 bits, too coarse for their 1 %: so the sampler gives the shader a second one.
-    constexpr std::uint32_t n = 1 << 17, draws = 1 << 20;
-    std::vector<double> weights(n, 0.01 / (n - 1));
-    weights[12345] = 0.99;
-    const auto table = render::make_alias_table(weights);
-    const auto buffer = lab().device().create_buffer_of<shared::AliasEntry>(table, "alias table");
-    REQUIRE(buffer);
-    std::vector<std::uint32_t> indices(draws);
-    for (std::uint32_t i = 0; i < draws; ++i)
-        indices[i] = i;
-    struct Drawn {
-        std::uint32_t index;
-        float left;
-    };
-    const auto drawn = lab().run<Drawn, std::uint32_t>(
-        "#include \"lib/light.glsl\"\n#include \"lib/sampler.glsl\"\nstruct Drawn { uint index; float left; };", "uint",
-        "Drawn",
-        "result.left = sample_pair(9u, x, pair_lobe(0u)).y;"
-        "result.index = alias_pick(root, 131072u, sample_bits(9u, x, pair_light_pick(0u)).x, result.left);",
-        indices, buffer->address());
-    double dim = 0, left = 0;
-    std::size_t wrong = 0;
-    for (const auto& d : drawn) {
-        dim += d.index != 12345;
-        left += d.left / draws;
-        wrong += d.index >= n || d.left < 0 || d.left >= 1;
-    }
-    INFO("dim entries drawn " << dim << " times of " << draws << ", mean of what is left " << left);
-    CHECK(wrong == 0);
-    CHECK(std::abs(dim - 0.01 * draws) < 4 * std::sqrt(0.01 * draws));
-    CHECK(std::abs(left - 0.5) < 4 * 0.29 / std::sqrt(double(draws))); // still uniform
-}
-
-TEST_CASE("alias table: each of 33 million texels can be reached") {
-    constexpr std::uint32_t count = 8192 * 4096; // twice what the 24 bits of a float can distinguish
-    std::vector<std::uint32_t> bits;
-    for (std::uint32_t i = 0; i < 4096; ++i)
-        bits.push_back((7919u * i % count) * 128u + i % 128); // 2^32 / count = 128 numbers lead to each
-    const auto index = lab().run<std::uint32_t, std::uint32_t>("#include \"lib/light.glsl\"", "uint", "uint",
-                                                               "result = scaled_index(x, 33554432u);", bits);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < bits.size(); ++i)
-        wrong += index[i] != bits[i] / 128;
-    CHECK(wrong == 0);
-}
-
-TEST_CASE("light table: chosen by power, and the densities sum to one") {
-    SceneBuilder b;
-    const auto one = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    const auto lamp = [&](float radiance, bool two_sided, double scale) {
-        return b.instance(one, b.diffuse(0, 0, 0), glm::scale(glm::dmat4(1), glm::dvec3(scale)),
-                          scene::Emission{glm::vec3(radiance), two_sided});
-    };
-    lamp(1, false, 1); // pi
-    lamp(1, true, 1); // 2 pi
-    lamp(1, false, 3); // 9 pi
-    lamp(0, false, 1); // none
-    b.light({.kind = scene::LightKind::point, .value = glm::vec3(1)}); // 4 pi
-    b.light({.kind = scene::LightKind::spot, .value = glm::vec3(1), .cone_angle = 60, .cone_delta = 0}); // pi
-    b.light({.kind = scene::LightKind::distant, .value = glm::vec3(1)}); // pi r^2
-    b.environment(glm::vec3(1)); // 4 pi^2 r^2
-    const double r = 2;
-    const auto table =
-        render::make_light_table(b.scene, glm::dvec3(0), glm::vec3(1), r, [&](scene::Id<scene::Instance> id) {
-            const auto& e = *b.scene.instances[id].emission;
-            return std::optional(render::Emitter{.radiance = e.radiance, .two_sided = e.two_sided, .mean = {}});
-        });
-    REQUIRE(table.lights.size() == 10);
-    const std::vector<double> power{0.5, 0.5, 1, 1, 4.5, 4.5, 4, 1, r * r, 4 * pi * r * r}; // over pi
-    double all = 0, sum = 0;
-    for (double p : power)
-        all += p;
-    for (std::size_t i = 0; i < power.size(); ++i) {
-        INFO("light " << i);
-        CHECK(std::abs(table.lights[i].pmf - power[i] / all) < 1e-6);
-        sum += table.lights[i].pmf;
-    }
-    CHECK(std::abs(sum - 1) < 1e-6);
-    CHECK(table.light_base == std::vector<std::uint32_t>{NONE, 0, 2, 4, NONE});
-    CHECK(table.environment == 9);
 }
 
 TEST_CASE("octahedral and equirectangular maps: round trip") {
