@@ -52,7 +52,7 @@ void make_tables(EnvironmentMap& map, scene::Mapping mapping) {
 
 } // namespace
 
-EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mapping mapping) {
+EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mapping mapping, bool compensate) {
     EnvironmentMap map;
     if (!image || image->width == 0 || image->height == 0) {
         map.mean = glm::vec3(1);
@@ -65,11 +65,14 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mappin
     std::vector<double> weights(n);
     glm::dvec3 sum(0);
     double total = 0;
+    // Of a row's texels, up to a factor; exact: the difference of the cosines at its edges.
+    const auto solid_angle = [&](std::size_t y) {
+        return mapping == scene::Mapping::equirect ? std::cos(std::numbers::pi * double(y) / map.height) -
+                                                         std::cos(std::numbers::pi * double(y + 1) / map.height)
+                                                   : 1.0;
+    };
     for (std::uint32_t y = 0; y < map.height; ++y) {
-        // Solid angle of a row's texels, exact: the difference of the cosines at its edges.
-        const double row = mapping == scene::Mapping::equirect ? std::cos(std::numbers::pi * y / map.height) -
-                                                                     std::cos(std::numbers::pi * (y + 1) / map.height)
-                                                               : 1.0;
+        const double row = solid_angle(y);
         for (std::uint32_t x = 0; x < map.width; ++x) {
             const std::size_t i = std::size_t(y) * map.width + x;
             const float* v = &image->values[i * image->channels];
@@ -86,13 +89,21 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mappin
         }
     }
     map.mean = glm::vec3(sum / total);
-    double all = 0;
-    for (double w : weights)
-        all += w;
-    if (!(all > 0)) {
+    const double mean = 0.2126 * map.mean.x + 0.7152 * map.mean.y + 0.0722 * map.mean.z;
+    if (!(mean > 0)) {
         map.texels.clear();
         return map;
     }
+    if (compensate) {
+        std::vector<double> brighter(n);
+        double left = 0;
+        for (std::size_t i = 0; i < n; ++i)
+            left += brighter[i] = std::max(0.0, weights[i] - mean * solid_angle(i / map.width));
+        if (left > 1e-6 * mean * total) weights = std::move(brighter); // else it is constant
+    }
+    double all = 0;
+    for (double w : weights)
+        all += w;
     for (std::size_t i = 0; i < n; ++i)
         map.texels[i].w = float(weights[i] / all * double(n));
     make_tables(map, mapping);

@@ -21,7 +21,8 @@ struct EnvironmentMap {
     std::size_t mended = 0;                // number of negative or non-finite values, replaced by 0
 };
 
-// A black image, or none, gives an empty map with mean 0 (black image) or 1 (constant).
-EnvironmentMap make_environment_map(const scene::PixelData*, scene::Mapping);
+// A black image, or none, gives an empty map with mean 0 (black image) or 1 (constant). compensate: directions darker
+// than the mean are left to BSDF sampling, which must then be in use too (MIS compensation: Karlik et al. 2019).
+EnvironmentMap make_environment_map(const scene::PixelData*, scene::Mapping, bool compensate);
 
 } // namespace restage::render

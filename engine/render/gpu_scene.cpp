@@ -25,8 +25,8 @@ static_assert(sizeof(shared::LightData) == 72);
 static_assert(sizeof(shared::LightNode) == 60);
 static_assert(sizeof(shared::ImageData) == 24);
 
-GpuScene::GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup)
-    : device_(&device), jobs_(&jobs), lookup_(std::move(lookup)), tables_(device) {
+GpuScene::GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup, Strategy strategy)
+    : device_(&device), jobs_(&jobs), lookup_(std::move(lookup)), strategy_(strategy), tables_(device) {
     scene_data_.resize(1, {});
 }
 

@@ -10,6 +10,7 @@
 #include "render/gpu_array.hpp"
 #include "render/light_table.hpp"
 #include "render/material_composer.hpp"
+#include "render/renderer_options.hpp"
 #include "render/table_store.hpp"
 #include "render/texture_program.hpp"
 #include "scene/emission.hpp"
@@ -45,7 +46,7 @@ struct SceneChanges {
 
 class GpuScene {
   public:
-    GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup);
+    GpuScene(gpu::Device& device, Jobs& jobs, MaterialLookup lookup, Strategy strategy = Strategy::mis);
 
     // Returns the changes. After an error the GpuScene must not be traced.
     Result<SceneChanges> sync(const scene::Scene& scene);
@@ -137,6 +138,7 @@ class GpuScene {
     gpu::Device* device_;
     Jobs* jobs_;
     MaterialLookup lookup_;
+    Strategy strategy_;
     glm::dvec3 origin_{0};
     bool have_origin_ = false;
     SceneFeatures features_;

@@ -365,7 +365,8 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
         environment_ =
-            make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : scene::Mapping::equirect);
+            make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : scene::Mapping::equirect,
+                                 strategy_ == Strategy::mis);
         if (environment_.mended > 0)
             changes.warnings.push_back(
                 fmt::format("environment \"{}\": {} values of its image are negative or not finite; replaced by 0",

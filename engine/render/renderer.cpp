@@ -100,7 +100,7 @@ Result<FilmImage> Renderer::clay(glm::uvec2 size) {
 
 void Renderer::forget_scene() {
     clay_scene_.reset();
-    gpu_scene_ = std::make_unique<GpuScene>(*device_, jobs_, lookup_);
+    gpu_scene_ = std::make_unique<GpuScene>(*device_, jobs_, lookup_, options_.strategy);
     film_.reset();
     samples_ = 0;
 }
