@@ -30,4 +30,10 @@ SceneData wave_scene() {
     return scene;
 }
 
+// Of samples that are black now. The copies that fill a group do not count.
+void count_not_finite(uint type, uint path) {
+    if (path < WAVE_PATHS)
+        atomicAdd(CounterArray(FrameRef(push.frame).frame.counters).at[min(type, uint(COUNTER_MAX_TYPES - 1))], 1u);
+}
+
 #endif

@@ -7,7 +7,6 @@
 #include "path/escape.glsl"
 
 void main() {
-    if (gl_GlobalInvocationID.x >= push.queue_count) return;
     uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
     PathState path = PathArray(push.paths).at[i];
     path_escape(wave_scene(), RayArray(push.rays).at[i].origin, RayArray(push.rays).at[i].direction, path);

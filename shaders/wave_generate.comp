@@ -9,7 +9,6 @@
 void main() {
     uint i = gl_GlobalInvocationID.x;
     FrameData frame = FrameRef(push.frame).frame;
-    if (i >= frame.pixel_count * frame.samples) return;
     uint pixel = frame.first_pixel + i % frame.pixel_count;
     uint sample_index = frame.first_sample + i / frame.pixel_count;
     vec3 origin, direction;

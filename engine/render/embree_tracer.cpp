@@ -20,12 +20,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr std::uint32_t wave_paths = 1 << 16; // about 13 MB of path state: cache-friendly, amortises a submit
+constexpr std::uint32_t wave_paths = WAVE_PATHS;
 constexpr std::uint32_t group_size = 64;      // of the kernels
 constexpr std::size_t chunk = 2048;           // paths per job
 constexpr std::size_t most_asked = 1 << 18;   // undecided hits per submit
 constexpr std::size_t ahead = 3; // paths prefetched: kernels left them in another cache
-constexpr std::uint8_t type_none = 255, type_escape = WaveKernels::escape;
+constexpr std::uint8_t type_none = 255, type_emit = WaveKernels::emit, type_escape = WaveKernels::escape;
+// Kernels run whole groups, without a test of the number of paths: on lavapipe everything behind such a test is masked,
+// and a masked load is a branch per lane. A queue's last group is filled with copies of a path of the same type.
+constexpr std::uint32_t spare_paths = (type_escape + 1) * group_size;
+constexpr std::uint32_t all_paths = wave_paths + spare_paths;
+constexpr std::uint32_t whole_groups(std::uint32_t n) { return (n + group_size - 1) / group_size * group_size; }
 
 static_assert(sizeof(shared::WavePush) == 128);
 
@@ -38,11 +43,11 @@ class EmbreeTracer final : public Tracer {
     Result<void> start() {
         RESTAGE_TRY(embree_, EmbreeScene::create(c_.jobs.threads()));
         const auto host = gpu::BufferKind::readback; // both sides read and write
-        RESTAGE_TRY(rays_, c_.device.create_buffer(wave_paths * sizeof(shared::RayHit), host, "rays"));
-        RESTAGE_TRY(shadows_, c_.device.create_buffer(wave_paths * sizeof(shared::ShadowRay), host, "shadow rays"));
-        RESTAGE_TRY(paths_, c_.device.create_buffer(wave_paths * sizeof(shared::PathState), host, "paths"));
-        RESTAGE_TRY(guides_, c_.device.create_buffer(wave_paths * sizeof(shared::GuideSample), host, "guide samples"));
-        RESTAGE_TRY(queue_, c_.device.create_buffer(wave_paths * sizeof(std::uint32_t), host, "queue"));
+        RESTAGE_TRY(rays_, c_.device.create_buffer(all_paths * sizeof(shared::RayHit), host, "rays"));
+        RESTAGE_TRY(shadows_, c_.device.create_buffer(all_paths * sizeof(shared::ShadowRay), host, "shadow rays"));
+        RESTAGE_TRY(paths_, c_.device.create_buffer(all_paths * sizeof(shared::PathState), host, "paths"));
+        RESTAGE_TRY(guides_, c_.device.create_buffer(all_paths * sizeof(shared::GuideSample), host, "guide samples"));
+        RESTAGE_TRY(queue_, c_.device.create_buffer((wave_paths + all_paths) * sizeof(std::uint32_t), host, "queue"));
         RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), host, "counters"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
@@ -53,6 +58,7 @@ class EmbreeTracer final : public Tracer {
         for (auto& shadow : shadows_.span<shared::ShadowRay>())
             shadow.mask = ~0u;
         types_.resize(wave_paths);
+        emits_.resize(wave_paths);
         return {};
     }
 
@@ -145,15 +151,17 @@ class EmbreeTracer final : public Tracer {
                 if (!decided) return false;
             }
             queue_hits();
-            if (active_.empty() && !escaped_) break;
+            if (queued_ == 0) break;
             RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
-                std::uint32_t first = 0;
-                for (std::size_t t = 0; t < type_none; ++t) {
-                    if (type_count_[t]) dispatch(list, kernels_.shade(t), first, type_count_[t]);
-                    first += type_count_[t];
+                if (type_count_[type_emit]) {
+                    dispatch(list, kernels_.shade(type_emit), type_first_[type_emit], type_count_[type_emit]);
+                    list.barrier(); // shading adds to the same radiance
                 }
+                for (std::size_t t = 0; t < type_none; ++t)
+                    if (type_count_[t] && t != type_emit)
+                        dispatch(list, kernels_.shade(t), type_first_[t], type_count_[t]);
             }));
         }
         RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, f.pixel_count); }));
@@ -181,11 +189,11 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // A path's last vertex contributes only emission or denoiser guides.
-    static bool ends_unlit(const GpuScene& scene, const shared::PathState& path, std::uint32_t instance) {
+    // A path's last vertex contributes only emission or denoiser guides; but lamps without surface are no vertices.
+    static bool ends(const GpuScene& scene, const shared::PathState& path, std::uint32_t instance) {
         const std::uint32_t depth = path.flags & PATH_DEPTH_MASK;
         return depth > 0 && depth >= scene.data().max_depth && !(path.flags & PATH_GUIDED) &&
-               !(scene.instances()[instance].flags & INSTANCE_EMITS);
+               !(scene.instances()[instance].flags & INSTANCE_PASSES);
     }
 
     // Rays of one chunk with hits that native code cannot decide, and these hits.
@@ -246,11 +254,13 @@ class EmbreeTracer final : public Tracer {
             path.throughput *= passed.transmittance;
             path.medium = passed.medium;
         }
+        emits_[i] = ray.inst != NONE && (scene.instances()[ray.inst].flags & INSTANCE_EMITS);
         if (ray.inst == NONE) return scene.features().environment ? type_escape : type_none;
-        if (last_vertex && ends_unlit(scene, path, ray.inst)) return type_none;
+        const bool shades = !last_vertex || !ends(scene, path, ray.inst);
+        if (!shades && !emits_[i]) return type_none;
         ray.geom = material ? *material : scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
         if (ray.geom == MATERIAL_NOTHING) ray.geom = 0; // the filter accepted it: unreachable
-        return std::uint8_t(scene.materials()[ray.geom].type);
+        return shades ? std::uint8_t(scene.materials()[ray.geom].type) : type_none;
     }
 
     // Next hits of these paths: types_ holds each one's type, `count` the number per type.
@@ -265,12 +275,14 @@ class EmbreeTracer final : public Tracer {
             }
             const std::uint32_t i = active[a];
             std::uint8_t type = type_none;
+            emits_[i] = 0;
             if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
                 ++traced;
                 ray.geom = ray.inst = NONE;
                 if (undecided && intersect_undecided(scene, i, *undecided)) continue;
                 if (!undecided) embree_->intersect(ray);
                 type = shader_of(scene, i, last_vertex);
+                count[type_emit] += emits_[i];
             }
             types_[i] = type;
             ++count[type];
@@ -362,6 +374,7 @@ class EmbreeTracer final : public Tracer {
             const std::uint8_t type = shader_of(scene, open.path, last_vertex, material);
             types_[open.path] = type;
             ++count[type];
+            count[type_emit] += emits_[open.path];
         }
     }
 
@@ -400,10 +413,11 @@ class EmbreeTracer final : public Tracer {
         for (auto& c : counts_)
             for (std::size_t t = 0; t < type_none; ++t)
                 type_count_[t] += c[t];
-        escaped_ = type_count_[type_escape] > 0;
         std::array<std::uint32_t, 256> next{};
         for (std::uint32_t t = 1; t < 256; ++t)
-            next[t] = next[t - 1] + type_count_[t - 1];
+            next[t] = next[t - 1] + whole_groups(type_count_[t - 1]);
+        type_first_ = next;
+        queued_ = next[type_none];
         std::uint32_t live = 0;
         std::vector<std::uint32_t> live_first(chunks);
         for (std::size_t k = 0; k < chunks; ++k) {
@@ -412,7 +426,7 @@ class EmbreeTracer final : public Tracer {
                 const std::uint32_t c = counts_[k][t];
                 counts_[k][t] = next[t];
                 next[t] += c;
-                live += t < type_escape ? c : 0;
+                live += t < type_emit ? c : 0;
             }
         }
         next_active_.resize(live);
@@ -421,29 +435,47 @@ class EmbreeTracer final : public Tracer {
                 std::uint32_t to = live_first[k];
                 for (std::size_t a = k * chunk; a < std::min(n, (k + 1) * chunk); ++a) {
                     const std::uint32_t i = active_[a];
+                    if (emits_[i]) queue[counts_[k][type_emit]++] = i;
                     if (types_[i] == type_none) continue;
                     queue[counts_[k][types_[i]]++] = i;
-                    if (types_[i] < type_escape) next_active_[to++] = i;
+                    if (types_[i] < type_emit) next_active_[to++] = i;
                 }
             }
         });
+        fill_groups();
         active_.swap(next_active_);
         stats_.seconds_tracing += seconds_since(start);
+    }
+
+    // Completes the last group of each type's queue.
+    void fill_groups() {
+        auto queue = queue_.span<std::uint32_t>();
+        std::uint32_t spare = wave_paths;
+        for (std::size_t t = 0; t < type_none; ++t) {
+            const std::uint32_t end = type_first_[t] + type_count_[t],
+                                whole = type_first_[t] + whole_groups(type_count_[t]);
+            for (std::uint32_t k = end; k < whole; ++k, ++spare) {
+                const std::uint32_t i = queue[type_first_[t]];
+                rays_.span<shared::RayHit>()[spare] = rays_.span<shared::RayHit>()[i];
+                paths_.span<shared::PathState>()[spare] = paths_.span<shared::PathState>()[i];
+                queue[k] = spare;
+            }
+        }
     }
 
     TracerContext c_;
     std::unique_ptr<EmbreeScene> embree_;
     gpu::Buffer rays_, shadows_, paths_, guides_, queue_, counters_, frame_;
     WaveKernels kernels_;
-    bool escaped_ = false;
     std::vector<Undecided> undecided_; // by chunk of active_
     gpu::Buffer asked_, decided_;
     gpu::CommandList list_;
     shared::WavePush push_{}; // of this wave
     std::vector<std::uint32_t> active_, next_active_;
-    std::vector<std::uint8_t> types_; // by path
+    std::vector<std::uint8_t> types_, emits_; // by path
     std::vector<std::array<std::uint32_t, 256>> counts_;
-    std::array<std::uint32_t, 256> type_count_{};
+    std::array<std::uint32_t, 256> type_count_{}, type_first_{}; // of `queue_`
+    std::uint32_t queued_ = 0;
 };
 
 } // namespace

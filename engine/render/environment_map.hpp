@@ -13,8 +13,8 @@ namespace restage::render {
 struct EnvironmentMap {
     std::uint32_t width = 0, height = 0;
     std::vector<glm::vec4> texels; // rgb and density over the unit square, row 0 on top; empty for a constant
-    // Cells between the middles of neighbouring texels, where the density is bilinear: (width + 1) * (height + 1), those at
-    // the edges halved.
+    // Cells between the middles of neighbouring texels, where the density is bilinear: (width + 1) * (height + 1),
+    // those at the edges halved.
     std::vector<shared::CdfEntry> rows;    // height + 1: rows of cells
     std::vector<shared::CdfEntry> columns; // width + 1 for each row
     glm::vec3 mean{0};                     // over the sphere, without scale

@@ -349,7 +349,8 @@ std::uint32_t GpuScene::medium_behind(std::uint32_t id, std::uint32_t prim, glm:
 
 std::size_t GpuScene::bytes() const {
     std::size_t sum = instances_.size() * sizeof(shared::InstanceData) + lights_.size() * sizeof(shared::LightData) +
-                      env_texels_.size() * sizeof(glm::vec4) + (env_rows_.size() + env_columns_.size() + light_cdf_.size()) * sizeof(shared::CdfEntry) +
+                      env_texels_.size() * sizeof(glm::vec4) +
+                      (env_rows_.size() + env_columns_.size() + light_cdf_.size()) * sizeof(shared::CdfEntry) +
                       light_nodes_.size() * sizeof(shared::LightNode);
     for (const auto& [id, mesh] : meshes_)
         sum += mesh.buffer.size();
@@ -361,9 +362,10 @@ std::size_t GpuScene::bytes() const {
 std::size_t GpuScene::uploaded_bytes() const {
     return instances_.uploaded_bytes() + materials_.uploaded_bytes() + params_.uploaded_bytes() +
            programs_.uploaded_bytes() + texture_words_.uploaded_bytes() + images_.uploaded_bytes() +
-           lights_.uploaded_bytes() + light_cdf_.uploaded_bytes() + light_nodes_.uploaded_bytes() + media_.uploaded_bytes() +
-           env_texels_.uploaded_bytes() + env_rows_.uploaded_bytes() + env_columns_.uploaded_bytes() + filter_.uploaded_bytes() +
-           scene_data_.uploaded_bytes() + tables_.uploaded_bytes();
+           lights_.uploaded_bytes() + light_cdf_.uploaded_bytes() + light_nodes_.uploaded_bytes() +
+           media_.uploaded_bytes() + env_texels_.uploaded_bytes() + env_rows_.uploaded_bytes() +
+           env_columns_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() +
+           tables_.uploaded_bytes();
 }
 
 } // namespace restage::render

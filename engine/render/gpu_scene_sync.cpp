@@ -2,6 +2,7 @@
 // GpuScene's derivation of materials, instances, lights and the root record.
 #include "render/filter_table.hpp"
 #include "render/gpu_scene.hpp"
+#include "render/light_tree.hpp"
 #include "scene/projection.hpp"
 
 #include <fmt/format.h>
@@ -364,9 +365,8 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
     const auto& env = scene.environment.value;
     if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
-        environment_ =
-            make_environment_map(image ? image->data.get() : nullptr, env ? env->mapping : scene::Mapping::equirect,
-                                 strategy_ == Strategy::mis);
+        environment_ = make_environment_map(image ? image->data.get() : nullptr,
+                                            env ? env->mapping : scene::Mapping::equirect, strategy_ == Strategy::mis);
         if (environment_.mended > 0)
             changes.warnings.push_back(
                 fmt::format("environment \"{}\": {} values of its image are negative or not finite; replaced by 0",
@@ -388,8 +388,7 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
         light_alpha_ |= out && (instances_[id.value].flags & INSTANCE_HAS_ALPHA);
         return out;
     };
-    light_table_ =
-        make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), emitter);
+    light_table_ = make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), emitter);
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
         if (instances_[i].light_base != light_table_.light_base[i]) {
             auto record = instances_[i];
@@ -501,6 +500,9 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     f.quadrics = quadrics_ > 0;
     const auto* camera = scene.cameras.find(scene.active_camera.value);
     f.camera = camera ? std::uint32_t(camera->projection) : CAMERA_PERSPECTIVE;
+    f.lights = light_table_.kinds;
+    const auto emitters = std::uint32_t(light_table_.nodes.size()), roots = light_table_.roots;
+    f.light_roots = emitters > light_node_children ? 9 : roots > 1 ? std::bit_ceil(roots) : roots;
     f.borders = std::ranges::find(border_, 1) != border_.end();
     changes.shaders |= f != features_ || first_;
     features_ = f;

@@ -153,6 +153,14 @@ bool make_pair(const glm::dmat4& place, const scene::MeshData& mesh, glm::uvec3&
     return true;
 }
 
+// Are the edges at a triangle's first corner at a right angle?
+bool right_angle(const glm::dmat4& place, const scene::MeshData& mesh, const glm::uvec3& t) {
+    const glm::dmat3 m(place);
+    const glm::dvec3 p(mesh.positions[t.x]);
+    const glm::dvec3 b = m * (glm::dvec3(mesh.positions[t.y]) - p), c = m * (glm::dvec3(mesh.positions[t.z]) - p);
+    return std::abs(glm::dot(b, c)) <= 1e-5 * glm::length(b) * glm::length(c);
+}
+
 // The lights of one emitter as they are added to the table, and bounds for the tree.
 class EmitterBuilder {
   public:
@@ -180,13 +188,17 @@ class EmitterBuilder {
             light.pmf = float(cdf_probability(cdf, i));
             if (!(light.kind & LIGHT_PAIR_END)) continue;
             LightData& other = table_.lights[first_ + i - 1]; // one density over both
-            light.pmf = other.pmf = 0.5f * (light.pmf + other.pmf);
+            light.pmf = other.pmf = light.pmf + other.pmf;
+            light.area = other.area = light.area + other.area;
         }
         shared::LightNode node{};
         node.first = first_;
         node.lights = std::uint32_t(cdf.size());
         node.intensity = float(std::min(std::accumulate(weights_.begin(), weights_.end(), 0.0), 1e30));
         node.flags = two_sided ? LIGHT_TWO_SIDED : 0;
+        const bool pair = cdf.size() == 2 && (table_.lights.back().kind & LIGHT_PAIR_END);
+        if (cdf.size() > 1 && !pair) node.flags |= LIGHT_PIECES;
+        table_.kinds |= LIGHTS_SURFACES | (node.flags & LIGHT_PIECES ? LIGHTS_MESHES : 0);
         bound(node);
         return node;
     }
@@ -228,7 +240,8 @@ void add_quadric(EmitterBuilder& builder, const scene::Quadric& q, const glm::dm
     light.instance = id;
     std::array<glm::dvec3, 8> box;
     for (unsigned i = 0; i < 8; ++i)
-        box[i] = place * glm::dvec4(i & 1 ? q.radius : -q.radius, i & 2 ? q.radius : -q.radius, i & 4 ? q.z_max : q.z_min, 1);
+        box[i] = place *
+                 glm::dvec4(i & 1 ? q.radius : -q.radius, i & 2 ? q.radius : -q.radius, i & 4 ? q.z_max : q.z_min, 1);
     builder.add(light, world_area(q, glm::dmat3(place)) * mean(emits, 0), box, glm::dvec3(0));
 }
 
@@ -248,8 +261,9 @@ void add_triangles(EmitterBuilder& builder, const scene::Instance& instance, con
         glm::uvec3 next = k + 1 < count ? mesh.triangles[k + 1] : t;
         // Emission that varies is looked up by the mesh's barycentric coordinates.
         if (!emits.varies && k + 1 < count && make_pair(place, mesh, t, next)) {
-            add(k, t, LIGHT_PAIR);
-            add(++k, next, LIGHT_PAIR_END);
+            const std::uint32_t right = right_angle(place, mesh, t) ? LIGHT_RECTANGLE : 0;
+            add(k, t, LIGHT_PAIR | right);
+            add(++k, next, LIGHT_PAIR_END | right);
         } else {
             add(k, t, 0);
         }
@@ -307,6 +321,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         const scene::Cone cone = scene::cone_of(item);
         light.c = {cone.edge, cone.start, cone.falloff == scene::Falloff::quartic ? 1 : 0};
         light.kind = LIGHT_LAMP + std::uint32_t(item.kind);
+        table.kinds |= LIGHTS_LAMPS;
         add_single(light, lamp_node(item, light, cone));
     });
     if (scene.environment.value && luminance(environment_mean) > 0) {

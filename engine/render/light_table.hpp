@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene's lights as one table: a triangle of an emissive instance, a quadric, a point, a spot, a distant light or the
-// environment is one entry each; and the emitters that they belong to, in a tree. World space is relative to the render
-// origin.
+// The scene's lights as one table: a triangle of an emissive instance, a quadric, a point, a spot, a distant light or
+// the environment is one entry each; and the emitters that they belong to, in a tree. World space is relative to the
+// render origin.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -18,6 +18,7 @@ struct LightTable {
     std::vector<shared::CdfEntry> cdf;     // parallel to `lights`, a table for each emitter
     std::vector<shared::LightNode> nodes;  // LightTree; empty: nothing emits
     std::uint32_t roots = 0;
+    std::uint32_t kinds = 0;               // LIGHTS_*
     std::vector<std::uint32_t> light_base; // by Id<Instance>::value; NONE if not emissive
     std::uint32_t environment = NONE;      // its index in `lights`
 };

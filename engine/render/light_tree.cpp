@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_tree.hpp"
 
-#include <glm/glm.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <numbers>
 #include <span>
 
@@ -100,7 +100,8 @@ std::size_t split(Nodes nodes) {
         return std::min(count - 1, int((n.center[axis] - lower[axis]) / extent[axis] * count));
     };
     for (const LightNode& n : nodes)
-        bins[std::size_t(bin_of(n))].add({glm::dvec3(n.center) - double(n.radius), glm::dvec3(n.center) + double(n.radius), n.intensity});
+        bins[std::size_t(bin_of(n))].add(
+            {glm::dvec3(n.center) - double(n.radius), glm::dvec3(n.center) + double(n.radius), n.intensity});
     after[count - 1] = bins[count - 1];
     for (std::size_t i = count - 1; i-- > 0;) {
         after[i] = bins[i];
@@ -117,7 +118,8 @@ std::size_t split(Nodes nodes) {
             place = i;
         }
     }
-    const auto middle = std::partition(nodes.begin(), nodes.end(), [&](const LightNode& n) { return bin_of(n) < place; });
+    const auto middle =
+        std::partition(nodes.begin(), nodes.end(), [&](const LightNode& n) { return bin_of(n) < place; });
     const auto at = std::size_t(middle - nodes.begin());
     return at == 0 || at == nodes.size() ? half : at;
 }
@@ -158,6 +160,8 @@ LightTree make_light_tree(std::vector<LightNode> emitters) {
     if (emitters.empty()) return tree;
     tree.nodes.reserve(emitters.size() + emitters.size() / 3 + 8);
     place(tree.nodes, emitters, NONE);
+    while (tree.nodes.size() < light_node_children) // black: never chosen
+        tree.nodes.push_back({.radius = -1, .parent = NONE});
     tree.roots = std::uint32_t(std::min<std::size_t>(emitters.size(), light_node_children));
     return tree;
 }

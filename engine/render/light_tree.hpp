@@ -12,11 +12,13 @@ namespace restage::render {
 inline constexpr std::uint32_t light_node_children = 8;
 
 struct LightTree {
-    std::vector<shared::LightNode> nodes; // the root's children first; siblings are neighbours
+    std::vector<shared::LightNode>
+        nodes; // the root's children first, at least 8, black ones after them; siblings are neighbours
     std::uint32_t roots = 0;              // number of the root's children
 };
 
-// emitters: leaves in any order (`lights` > 0); at most light_node_children of them are the root's children as they are.
+// emitters: leaves in any order (`lights` > 0); at most light_node_children of them are the root's children as they
+// are.
 LightTree make_light_tree(std::vector<shared::LightNode> emitters);
 
 } // namespace restage::render

@@ -189,7 +189,9 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {12, f.light_alpha},
             {13, f.glow},
             {14, f.camera},
-            {15, f.quadrics}};
+            {15, f.quadrics},
+            {16, f.lights},
+            {17, f.light_roots}};
 }
 
 } // namespace restage::render

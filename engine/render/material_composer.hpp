@@ -25,6 +25,8 @@ struct SceneFeatures {
     bool glow = false;        // some lamp has no surface
     bool quadrics = false;    // spheres, disks, cylinders
     std::uint32_t camera = 0; // CAMERA_*
+    std::uint32_t lights = 0; // LIGHTS_*
+    std::uint32_t light_roots = 0;
     bool operator==(const SceneFeatures&) const = default;
 };
 

@@ -13,7 +13,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
     auto before = std::exchange(types_, scene.types());
     texture_types_ = scene.texture_types();
     stand_in_type_ = scene.materials()[0].type;
-    if (types_.size() > escape) return fail("a scene may use at most 254 material types");
+    if (types_.size() > emit) return fail("a scene may use at most 253 material types");
     slots_.resize(types_.size());
     before.resize(types_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -24,7 +24,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
         slots_[i].settled = slots_[i].shown = false;
         slots_[i].wanted = nullptr;
     }
-    for (Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_, &decide_}) {
+    for (Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_}) {
         slot->settled = false;
         slot->wanted = nullptr;
     }
@@ -49,10 +49,9 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
         r.shader = {.name = path.string(), .text = std::move(text)};
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
-    if (&slot == &decide_) {
+    if (&slot == &decide_) r.push_constant_bytes = sizeof(shared::DecidePush);
+    if (&slot == &decide_ || (&slot == &emit_ && (features_.emission_textures || features_.light_alpha)))
         insert_textures(texture_types_, r.shader);
-        r.push_constant_bytes = sizeof(shared::DecidePush);
-    }
     return r;
 }
 
@@ -96,7 +95,7 @@ Result<bool> WaveKernels::need_decide(const std::function<bool()>& keep_going) {
 }
 
 Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going) {
-    const auto slot_of = [&](std::size_t t) { return t == escape ? &escape_ : &slots_[t]; };
+    const auto slot_of = [&](std::size_t t) { return t == escape ? &escape_ : t == emit ? &emit_ : &slots_[t]; };
     bool stand_in = false;
     for (std::size_t t = 0; t < hits.size(); ++t) {
         if (!hits[t] || slot_of(t)->settled) continue;
@@ -105,12 +104,12 @@ Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::f
         if (!c_.stand_ins || slot.shown) continue;
         if (slot.wanted->pipeline)
             arrive(slot); // already built: no stand-in was shown
-        else if (t != escape)
+        else if (t < emit)
             slot.shown = true;
     }
     for (std::size_t t = 0; t < hits.size(); ++t) {
         if (!hits[t] || slot_of(t)->settled) continue;
-        if (c_.stand_ins && t != escape) {
+        if (c_.stand_ins && t < emit) {
             stand_in |= !slot_of(t)->now;
             continue;
         }
@@ -123,7 +122,7 @@ Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::f
 }
 
 const gpu::ComputePipeline& WaveKernels::shade(std::size_t type) const {
-    if (type == escape) return *escape_.now;
+    if (type >= emit) return type == emit ? *emit_.now : *escape_.now;
     return slots_[type].now ? *slots_[type].now : *stand_in_.now;
 }
 
@@ -164,7 +163,7 @@ void WaveKernels::film_emptied() {
 
 std::size_t WaveKernels::shader_bytes() const {
     std::size_t sum = 0;
-    for (const Slot* slot : {&generate_, &escape_, &accumulate_, &stand_in_, &decide_})
+    for (const Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_})
         if (slot->now) sum += slot->now->shader_bytes();
     for (const Slot& slot : slots_)
         if (slot.now) sum += slot.now->shader_bytes();

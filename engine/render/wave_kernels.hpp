@@ -13,7 +13,8 @@ namespace restage::render {
 
 class WaveKernels {
   public:
-    static constexpr std::uint8_t escape = 254; // a pseudo type: paths that left the scene
+    // Pseudo types: hits of surfaces that emit, paths that left the scene
+    static constexpr std::uint8_t emit = 253, escape = 254;
 
     explicit WaveKernels(const TracerContext& c) : c_(c), store_(c) {}
 
@@ -26,7 +27,7 @@ class WaveKernels {
 
     const gpu::ComputePipeline& generate() const { return *generate_.now; }
     const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
-    const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); `escape` too
+    const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); pseudo types too
 
     // Of wave_decide.comp, for hits that native code cannot decide. False: keep_going requested a stop.
     Result<bool> need_decide(const std::function<bool()>& keep_going);
@@ -58,7 +59,7 @@ class WaveKernels {
     TextureTypes texture_types_;
     std::uint32_t stand_in_type_ = 0;
     std::vector<Slot> slots_; // by type
-    Slot generate_{.what = "wave_generate.comp"}, escape_{.what = "wave_escape.comp"},
+    Slot generate_{.what = "wave_generate.comp"}, emit_{.what = "wave_emit.comp"}, escape_{.what = "wave_escape.comp"},
         accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"}, decide_{.what = "wave_decide.comp"};
 };
 

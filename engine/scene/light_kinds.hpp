@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
@@ -36,24 +35,16 @@ struct LightKindRow {
     bool placed; // the position in light_to_world is used
     bool aimed; // its +z is used
     bool cone; // cone_angle, cone_delta and falloff are used
-    // Power [W] at a value of 1, in a scene of that radius: lights are sampled by it.
-    double (*power)(const Cone&, double radius);
 };
 
 // In order of LightKind.
 inline constexpr LightKindRow light_kinds[] = {
     {LightKind::point, "point", "Point", "Point light", "W/sr", "Emits in all directions from a point",
-     "Emits in all directions, above the middle of the picture", true, false, false,
-     [](const Cone&, double) { return 4 * std::numbers::pi; }},
+     "Emits in all directions, above the middle of the picture", true, false, false},
     {LightKind::spot, "spot", "Spot", "Spot light", "W/sr", "A cone of light from a point",
-     "A cone pointing down at the middle of the picture", true, true, true,
-     [](const Cone& c, double) { // over the edge the mean of t^2 (3 - 2t) is 1/2, that of t^4 is 1/5
-         return 2 * std::numbers::pi *
-                ((1 - c.start) + (c.start - c.edge) * (c.falloff == Falloff::quartic ? 0.2 : 0.5));
-     }},
+     "A cone pointing down at the middle of the picture", true, true, true},
     {LightKind::distant, "distant", "Sun", "Sun", "W/m²", "Parallel rays from far away",
-     "Parallel light from behind the camera", false, true, false,
-     [](const Cone&, double radius) { return std::numbers::pi * radius * radius; }},
+     "Parallel light from behind the camera", false, true, false},
 };
 static_assert([] {
     for (std::size_t i = 0; i < std::size(light_kinds); ++i)

@@ -9,6 +9,7 @@
 #include "lib/light_tree.glsl"
 #include "lib/quadric.glsl"
 #include "lib/ray_offset.glsl"
+#include "lib/rectangle.glsl"
 #include "lib/sampler.glsl"
 #include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
@@ -38,17 +39,25 @@ vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
            max(vec3(0), rgb_from_spectrum(texture_eval(scene, inst.emission_texture, at, TEXTURE_UNBOUNDED)));
 }
 
-// `pick` chooses the emitter, `bits` the point.
+// Density per solid angle at p of sampling this point of a lamp, chosen already. cos_light: at the point, above 0.
+float lamp_density(LightData light, vec3 p, float dist, float cos_light) {
+    if ((light.kind & LIGHT_RECTANGLE) != 0u) {
+        float angle = rectangle_view(light.a, light.b, light.c, p).solid_angle;
+        if (angle >= RECTANGLE_LEAST) return 1.0 / angle;
+    }
+    return triangle_density(light.area, dist, cos_light);
+}
+
+// `pick` chooses the emitter, `bits` the point. Loads stand outside of conditions as far as possible: see records.glsl.
 LightSample light_sample(SceneData scene, vec3 p, uint pick, uvec2 bits) {
     LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false, 0.0);
     float pmf;
     uint chosen = light_choose(scene, p, pick, pmf);
-    if (pmf <= 0.0) return s;
     LightNode emitter = LightNodeArray(scene.light_nodes).at[chosen];
     LightArray lights = LightArray(scene.lights);
     uint index = emitter.first;
     float x = to_unit(bits.x), y = to_unit(bits.y);
-    if (emitter.lights > 1u) {
+    if (HAS_LAMP_MESHES && (emitter.flags & LIGHT_PIECES) != 0u) {
         address table = scene.light_cdf + uint64_t(emitter.first) * 8ul;
         CdfDraw draw = cdf_draw(table, emitter.lights, bits.x);
         uint kind = lights.at[emitter.first + draw.index].kind;
@@ -56,11 +65,6 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, uvec2 bits) {
         if ((kind & LIGHT_PAIR_END) != 0u) draw.start = CdfArray(table).at[--draw.index].start;
         x = cdf_left(draw, bits.x);
         index += draw.index;
-        if ((kind & (LIGHT_PAIR | LIGHT_PAIR_END)) != 0u && x + y > 1.0) {
-            ++index;
-            x = 1.0 - x;
-            y = 1.0 - y;
-        }
     }
     LightData light = lights.at[index];
     pmf *= light.pmf;
@@ -68,63 +72,71 @@ LightSample light_sample(SceneData scene, vec3 p, uint pick, uvec2 bits) {
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
         s = environment_sample(scene.environment, bits);
         s.pdf *= pmf;
-        return s;
-    }
-    if (kind >= LIGHT_LAMP) {
+    } else if (HAS_LAMPS && kind >= LIGHT_LAMP) {
         LampRay ray = lamp_ray(kind - LIGHT_LAMP, light.a, light.b, light.c, p);
-        return LightSample(ray.wi, ray.dist, light.a, light.value * ray.amount, ray.dist > 0.0 ? pmf : 0.0, true, 0.0);
-    }
-    vec3 q = light.a;
-    vec2 bary = vec2(0);
-    InstanceData lamp;
-    QuadricData quadric;
-    vec3 n = vec3(0); // of surfaces, on the emitting side
-    if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
-        lamp = InstanceArray(scene.instances).at[light.instance];
-        quadric = quadric_of(lamp);
-        vec3 from = to_object(lamp, p);
-        vec2 u = vec2(x, y);
-        vec3 at = quadric_by_cone(quadric, from) ? quadric_sample_cone(quadric, from, u) : quadric_sample_area(quadric, u);
-        bary = quadric_uv(quadric, at);
-        n = normalize(lamp.normal_to_world * quadric_normal(quadric, at));
-        if ((lamp.flags & INSTANCE_FLIP_NORMAL) != 0u) n = -n;
-        q = lamp.object_to_world * vec4(at, 1.0);
-    } else { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
-        if ((light.kind & (LIGHT_PAIR | LIGHT_PAIR_END)) != 0u) {
-            // the half of a parallelogram, already
-        } else if (y > x) {
-            x *= 0.5;
-            y -= x;
+        s = LightSample(ray.wi, ray.dist, light.a, light.value * ray.amount, ray.dist > 0.0 ? pmf : 0.0, true, 0.0);
+    } else if (HAS_LAMP_SURFACES) {
+        vec3 q = light.a;
+        vec2 bary = vec2(0);
+        InstanceData lamp;
+        QuadricData quadric;
+        vec3 n = vec3(0); // of surfaces, on the emitting side
+        float angle = 0.0;
+        if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
+            lamp = InstanceArray(scene.instances).at[light.instance];
+            quadric = quadric_of(lamp);
+            vec3 from = to_object(lamp, p);
+            vec2 u = vec2(x, y);
+            vec3 at = quadric_by_cone(quadric, from) ? quadric_sample_cone(quadric, from, u) : quadric_sample_area(quadric, u);
+            bary = quadric_uv(quadric, at);
+            n = normalize(lamp.normal_to_world * quadric_normal(quadric, at));
+            if ((lamp.flags & INSTANCE_FLIP_NORMAL) != 0u) n = -n;
+            q = lamp.object_to_world * vec4(at, 1.0);
         } else {
-            y *= 0.5;
-            x -= y;
+            if ((light.kind & LIGHT_RECTANGLE) != 0u) {
+                RectangleView view = rectangle_view(light.a, light.b, light.c, p);
+                if (view.solid_angle >= RECTANGLE_LEAST) {
+                    vec2 at = rectangle_sample(view, vec2(x, y));
+                    x = at.x;
+                    y = at.y;
+                    angle = view.solid_angle;
+                }
+            } else if ((light.kind & (LIGHT_PAIR | LIGHT_PAIR_END)) != 0u) {
+                // uniform over the parallelogram
+            } else if (y > x) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
+                x *= 0.5;
+                y -= x;
+            } else {
+                y *= 0.5;
+                x -= y;
+            }
+            q += x * light.b + y * light.c;
+            bary = (light.kind & LIGHT_SWAPPED) != 0u ? vec2(y, x) : vec2(x, y);
+            n = normalize(cross(light.b, light.c)); // set when the light table is built
         }
-        q += x * light.b + y * light.c;
-        bary = (light.kind & LIGHT_SWAPPED) != 0u ? vec2(y, x) : vec2(x, y);
-        n = normalize(cross(light.b, light.c)); // set when the light table is built
-    }
-    vec3 d = q - p;
-    float d2 = dot(d, d);
-    if (d2 <= 0.0) return s;
-    s.dist = sqrt(d2);
-    s.wi = d / s.dist;
-    float c = -dot(n, s.wi);
-    if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
-    if (c <= 0.0) return s;
-    s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
-    s.radiance = light.value;
-    if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
-        InstanceData inst = InstanceArray(scene.instances).at[light.instance];
-        uint prim = index - inst.light_base;
-        s.radiance = emitted(scene, inst, prim, bary);
-        if (HAS_LIGHT_ALPHA && (inst.flags & INSTANCE_HAS_ALPHA) != 0u) {
-            float there = hit_alpha(scene, inst, prim, bary);
-            if ((inst.flags & INSTANCE_EMITS_UNSEEN) != 0u) s.unseen = 1.0 - there;
-            else s.radiance *= there;
+        vec3 d = q - p;
+        float d2 = dot(d, d);
+        s.dist = sqrt(d2);
+        s.wi = d / s.dist;
+        float c = -dot(n, s.wi);
+        if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
+        s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
+        s.radiance = light.value;
+        if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
+            InstanceData inst = InstanceArray(scene.instances).at[light.instance];
+            uint prim = index - inst.light_base;
+            s.radiance = emitted(scene, inst, prim, bary);
+            if (HAS_LIGHT_ALPHA && (inst.flags & INSTANCE_HAS_ALPHA) != 0u) {
+                float there = hit_alpha(scene, inst, prim, bary);
+                if ((inst.flags & INSTANCE_EMITS_UNSEEN) != 0u) s.unseen = 1.0 - there;
+                else s.radiance *= there;
+            }
         }
+        if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = quadric_density(lamp, quadric, p, q, c);
+        else if (angle > 0.0) s.pdf = 1.0 / angle;
+        else s.pdf = triangle_density(light.area, s.dist, c);
+        s.pdf = c > 0.0 && d2 > 0.0 ? s.pdf * pmf : 0.0;
     }
-    if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = pmf * quadric_density(lamp, quadric, p, q, c);
-    else s.pdf = pmf * triangle_density(light.area, s.dist, c);
     return s;
 }
 

@@ -28,65 +28,90 @@ float light_importance(LightNode node, vec3 p) {
     return c2 < node.cos_reach - 1e-3 ? 0.0 : importance * max(c2, 1e-3);
 }
 
+// The root's children: their number is a constant, so that lavapipe loads them once for all lanes.
+struct LightRoots {
+    float importance[8];
+    float sum;
+};
+LightRoots light_roots(LightNodeArray nodes, vec3 p) {
+    LightRoots r;
+    r.sum = 0.0;
+    for (uint k = 0u; k < 8u; ++k) {
+        r.importance[k] = 0.0;
+        if (k < LIGHT_ROOTS) r.importance[k] = light_importance(nodes.at[k], p);
+        r.sum += r.importance[k];
+    }
+    return r;
+}
+
 // 32 bits choose an emitter for p: its node, and the probability of that; 0 = none sends light there. The first bits
 // make the choices near the root, whose stratification matters most; further down are hashes of them.
 uint light_choose(SceneData scene, vec3 p, uint bits, out float pmf) {
     LightNodeArray nodes = LightNodeArray(scene.light_nodes);
-    uint first = 0u, count = scene.light_roots;
-    float u = to_unit(bits);
     pmf = 1.0;
-    for (uint level = 0u;; ++level) {
-        uint chosen = first;
-        if (count > 1u) {
-            if (level > 1u) u = to_unit(pcg_hash(bits + level));
-            float sum = 0.0, its = 0.0;
-            for (uint k = 0u; k < count; ++k) { // u is kept uniform within what has been chosen so far
-                float w = light_importance(nodes.at[first + k], p);
-                if (!(w > 0.0)) continue;
-                sum += w;
-                float q = w / sum;
-                if (u < q) {
-                    chosen = first + k;
-                    its = w;
-                    u = u / q;
-                } else {
-                    u = (u - q) / (1.0 - q);
-                }
-                u = min(u, 0.99999994);
-            }
-            if (!(its > 0.0)) {
-                pmf = 0.0;
-                return chosen;
-            }
-            pmf *= its / sum;
+    if (LIGHT_ROOTS == 1u) return 0u;
+    LightRoots roots = light_roots(nodes, p);
+    float x = to_unit(bits) * roots.sum, below = 0.0, start = 0.0, its = 0.0;
+    uint chosen = 0u;
+    for (uint k = 0u; k < 8u; ++k) {
+        if (roots.importance[k] > 0.0 && x >= below) {
+            chosen = k;
+            start = below;
+            its = roots.importance[k];
         }
-        if (nodes.at[chosen].count == 0u) return chosen;
-        first = nodes.at[chosen].first;
-        count = nodes.at[chosen].count;
+        below += roots.importance[k];
     }
+    pmf = its > 0.0 ? its / roots.sum : 0.0;
+    if (LIGHT_ROOTS <= 8u) return chosen;
+    float u = its > 0.0 ? clamp((x - start) / its, 0.0, 0.99999994) : 0.0;
+    for (uint level = 1u; nodes.at[chosen].count != 0u && pmf > 0.0; ++level) {
+        uint first = nodes.at[chosen].first, count = nodes.at[chosen].count;
+        if (level > 1u) u = to_unit(pcg_hash(bits + level));
+        float sum = 0.0;
+        its = 0.0;
+        for (uint k = 0u; k < count; ++k) { // u is kept uniform within what has been chosen so far
+            float w = light_importance(nodes.at[first + k], p);
+            if (!(w > 0.0)) continue;
+            sum += w;
+            float q = w / sum;
+            if (u < q) {
+                chosen = first + k;
+                its = w;
+                u = u / q;
+            } else {
+                u = (u - q) / (1.0 - q);
+            }
+            u = min(u, 0.99999994);
+        }
+        pmf *= its > 0.0 ? its / sum : 0.0;
+    }
+    return chosen;
 }
 
 // The probability with which light_choose finds this emitter.
 float light_choice_pmf(SceneData scene, vec3 p, uint emitter) {
     LightNodeArray nodes = LightNodeArray(scene.light_nodes);
+    if (LIGHT_ROOTS == 1u) return 1.0;
+    LightRoots roots = light_roots(nodes, p);
     float pmf = 1.0;
-    for (uint at = emitter;;) {
-        uint parent = nodes.at[at].parent;
-        uint first = parent == NONE ? 0u : nodes.at[parent].first;
-        uint count = parent == NONE ? scene.light_roots : nodes.at[parent].count;
-        if (count > 1u) {
+    uint at = emitter;
+    if (LIGHT_ROOTS > 8u) {
+        for (uint parent = nodes.at[at].parent; parent != NONE; parent = nodes.at[at].parent) {
+            uint first = nodes.at[parent].first, count = nodes.at[parent].count;
             float sum = 0.0, its = 0.0;
             for (uint k = 0u; k < count; ++k) {
                 float w = light_importance(nodes.at[first + k], p);
                 sum += w;
                 if (first + k == at) its = w;
             }
-            if (!(its > 0.0)) return 0.0;
-            pmf *= its / sum;
+            pmf *= its > 0.0 ? its / sum : 0.0;
+            at = parent;
         }
-        if (parent == NONE) return pmf;
-        at = parent;
     }
+    float its = 0.0;
+    for (uint k = 0u; k < 8u; ++k)
+        if (k == at) its = roots.importance[k];
+    return its > 0.0 ? pmf * its / roots.sum : 0.0;
 }
 
 #endif

@@ -31,10 +31,12 @@ float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, v
 vec3 offset_origin(vec3 p, vec3 n, float offset, vec3 d) {
     vec3 step = dot(d, n) < 0.0 ? -offset * n : offset * n;
     vec3 q = p + step;
-    // next float away, componentwise, for components that move (and are not tiny)
-    ivec3 up = ivec3(sign(step)) * ivec3(sign(q));
+    // Next float away, componentwise, for components that move. Signs by their bits: a conversion to int takes lavapipe
+    // several instructions per lane.
+    ivec3 up = 1 - 2 * ((floatBitsToInt(step) ^ floatBitsToInt(q)) >> 31 & 1);
     vec3 r = intBitsToFloat(floatBitsToInt(q) + up);
-    return mix(q, r, greaterThan(abs(q), vec3(1e-30)));
+    r = mix(q, r, notEqual(step, vec3(0)));
+    return mix(q, r, greaterThan(abs(q), vec3(1e-30))); // not tiny ones
 }
 
 #endif

@@ -42,12 +42,12 @@ vec2 sample_pair(uint seed, uint index, uint pair) {
 
 uint pixel_seed(uint pixel, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^ 0xb5297a4du)); }
 
-// Pairs of a path: two for the camera, then four per vertex.
-const uint PAIR_FILTER = 0u;
-const uint PAIR_LENS = 1u;
+// The table of a path's pairs: two for the camera, then four per vertex. Who else needs random numbers takes a new row.
+const uint PAIR_FILTER = 0u;                                  // a point of the pixel filter
+const uint PAIR_LENS = 1u;                                    // a point of the lens
 uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which emitter, y: Russian roulette
 uint pair_light(uint depth) { return 3u + 4u * depth; }       // a point on it
 uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction
-uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe
+uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe; y: not used
 
 #endif

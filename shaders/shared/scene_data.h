@@ -42,6 +42,12 @@ RESTAGE_UINT(LIGHT_TWO_SIDED, 256u);
 RESTAGE_UINT(LIGHT_PAIR, 1024u); // with the next one a parallelogram: b and c of that one are -b and -c of this one
 RESTAGE_UINT(LIGHT_PAIR_END, 2048u); // with the one before
 RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the emitting side
+RESTAGE_UINT(LIGHT_RECTANGLE, 4096u); // of a pair: its edges are at right angles
+RESTAGE_UINT(LIGHT_PIECES, 8192u); // of a LightNode: an emitter of more than a triangle or a pair
+// Kinds of lights in a scene
+RESTAGE_UINT(LIGHTS_SURFACES, 1u); // triangles, quadrics
+RESTAGE_UINT(LIGHTS_LAMPS, 2u); // LIGHT_LAMP and on
+RESTAGE_UINT(LIGHTS_MESHES, 4u); // emitters of LIGHT_PIECES
 RESTAGE_UINT(CDF_TOTAL, 0xffffffffu);
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);
@@ -122,7 +128,7 @@ struct LightData { // 72 bytes
     vec3 b;
     float pmf; // of being chosen from its emitter
     vec3 c;
-    float area;
+    float area; // of both triangles of a pair
     vec3 value; // radiance, intensity or irradiance
     float offset; // of a triangle: the part of light_offset that does not depend on the ray
     uint instance; // of a quadric, or of a triangle with an emission texture or alpha; else NONE
@@ -145,7 +151,7 @@ struct LightNode { // 60 bytes
     uint first, count; // its children; of an emitter (count = 0) its first light
     uint lights; // of an emitter; 0 = inner node
     uint parent; // NONE at the root
-    uint flags; // LIGHT_TWO_SIDED
+    uint flags; // LIGHT_TWO_SIDED | LIGHT_PIECES
 };
 
 struct EnvironmentData {

@@ -6,6 +6,10 @@
 #include "shared/address.h"
 #include "shared/types.h"
 
+RESTAGE_CONSTANTS_BEGIN
+RESTAGE_UINT(WAVE_PATHS, 65536u); // about 13 MB of path state: cache-friendly, amortises a submit
+RESTAGE_CONSTANTS_END
+
 RESTAGE_SHARED_BEGIN
 
 struct WavePush { // 128 bytes: the minimum guaranteed by Vulkan

@@ -86,14 +86,14 @@ TEST_CASE("cdf: the shader finds each number's place, and what is left of it") {
         double worst = 0;
         for (std::size_t k = 0; k < bits.size(); ++k) {
             const std::uint32_t b = std::min(bits[k], CDF_TOTAL - 1);
-            const auto after =
-                std::ranges::upper_bound(table, b, {}, &shared::CdfEntry::start); // the last of those that start at or before
+            const auto after = std::ranges::upper_bound(
+                table, b, {}, &shared::CdfEntry::start); // the last of those that start at or before
             const auto expected = std::size_t(after - table.begin() - 1);
             wrong += drawn[k].index != expected || drawn[k].left < 0 || drawn[k].left >= 1;
             if (drawn[k].index != expected) continue;
             const std::uint32_t end = after == table.end() ? CDF_TOTAL : after->start;
-            worst = std::max(worst, std::abs(drawn[k].left - double(b - table[expected].start) /
-                                                                 double(end - table[expected].start)));
+            worst = std::max(worst, std::abs(drawn[k].left -
+                                             double(b - table[expected].start) / double(end - table[expected].start)));
         }
         INFO(n << " entries");
         CHECK(wrong == 0);
@@ -129,7 +129,8 @@ render::LightTable table_of(const SceneBuilder& b, const glm::vec3& environment 
 TEST_CASE("light table: an entry per triangle, an emitter per instance") {
     SceneBuilder b;
     const auto one = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-    const auto uneven = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 3, 0}); // triangles of 0.5 and 1.5: no parallelogram
+    const auto uneven =
+        b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 3, 0}); // triangles of 0.5 and 1.5: no parallelogram
     const auto lamp = [&](scene::Id<scene::Mesh> mesh, float radiance, bool two_sided, double scale) {
         return b.instance(mesh, b.diffuse(0, 0, 0), glm::scale(glm::dmat4(1), glm::dvec3(scale)),
                           scene::Emission{glm::vec3(radiance), two_sided});
@@ -145,10 +146,10 @@ TEST_CASE("light table: an entry per triangle, an emitter per instance") {
     REQUIRE(table.cdf.size() == 7);
     CHECK(table.light_base == std::vector<std::uint32_t>{NONE, 0, 2, NONE});
     CHECK(table.environment == 6);
-    const std::vector<double> pmf{0.5, 0.5, 0.25, 0.75, 1, 1, 1}; // within the emitter
+    const std::vector<double> pmf{1, 1, 0.25, 0.75, 1, 1, 1}; // within the emitter; of a pair: of both
     const std::vector<double> intensity{1, 8, 3, 2, pi}; // luminance times area, intensity, irradiance
     REQUIRE(table.roots == 5);
-    REQUIRE(table.nodes.size() == 5);
+    REQUIRE(table.nodes.size() == 8); // black ones fill the root
     for (std::size_t i = 0; i < pmf.size(); ++i) {
         INFO("light " << i);
         CHECK(std::abs(table.lights[i].pmf - pmf[i]) < 1e-6);
@@ -165,6 +166,11 @@ TEST_CASE("light table: an entry per triangle, an emitter per instance") {
     CHECK((table.lights[0].kind & LIGHT_PAIR) != 0);
     CHECK((table.lights[1].kind & LIGHT_PAIR_END) != 0);
     CHECK((table.lights[2].kind & (LIGHT_PAIR | LIGHT_PAIR_END)) == 0);
+    CHECK((table.lights[1].kind & LIGHT_RECTANGLE) != 0);
+    CHECK(std::abs(table.lights[1].area - 1) < 1e-6); // of both
+    CHECK((table.nodes[0].flags & LIGHT_PIECES) == 0);
+    CHECK((table.nodes[1].flags & LIGHT_PIECES) != 0);
+    CHECK(table.kinds == (LIGHTS_SURFACES | LIGHTS_LAMPS | LIGHTS_MESHES));
 }
 
 TEST_CASE("a lamp of two triangles gets its points in the order of the unit square") {
@@ -190,7 +196,8 @@ TEST_CASE("a lamp of two triangles gets its points in the order of the unit squa
             mesh.triangles.push_back(turned);
         }
         SceneBuilder b;
-        const auto id = b.instance(b.mesh(std::move(mesh)), b.diffuse(0, 0, 0), glm::dmat4(1), scene::Emission{glm::vec3(1), true});
+        const auto id =
+            b.instance(b.mesh(std::move(mesh)), b.diffuse(0, 0, 0), glm::dmat4(1), scene::Emission{glm::vec3(1), true});
         auto instance = b.scene.instances[id];
         instance.reverse_orientation = kind / 9 % 2;
         b.scene.instances.set(id, instance, ++b.scene.clock);
@@ -221,7 +228,9 @@ TEST_CASE("a lamp of two triangles gets its points in the order of the unit squa
                 ++cells[std::size_t(int(y * rows) * columns + int(x * columns))];
                 ++across[std::size_t(int(x * rows) * columns + int(y * columns))];
             }
-            const auto ones = [](const std::vector<int>& c) { return std::ranges::all_of(c, [](int n) { return n == 1; }); };
+            const auto ones = [](const std::vector<int>& c) {
+                return std::ranges::all_of(c, [](int n) { return n == 1; });
+            };
             even &= ones(cells) || ones(across);
         }
         INFO("arrangement " << kind);
@@ -252,8 +261,9 @@ std::vector<shared::LightNode> random_emitters(std::size_t n, std::mt19937& rand
     return nodes;
 }
 
-const char* const tree_head = "#include \"lib/light_tree.glsl\"\nstruct Ask { vec3 p; uint what; };\n"
-                              "struct Answer { uint node; float pmf; float again; };";
+const char* const tree_head =
+    "#include \"lib/light_tree.glsl\"\nstruct Ask { vec3 p; uint what; };\n"
+    "struct Answer { uint node; float pmf; float again; };";
 struct Ask {
     glm::vec3 p;
     std::uint32_t what;
@@ -273,16 +283,18 @@ TEST_CASE("light tree: each emitter is chosen as often as its probability says")
         const auto buffer = upload<shared::LightNode>(tree.nodes);
         std::vector<std::uint32_t> leaves;
         for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
-            if (tree.nodes[i].count == 0) leaves.push_back(i);
+            if (tree.nodes[i].lights > 0) leaves.push_back(i);
         REQUIRE(leaves.size() == n);
-        const std::string scene = fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;", tree.roots);
+        const std::string scene =
+            fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;", tree.roots);
         for (int k = 0; k < 4; ++k) {
             const glm::vec3 p(unit(random), unit(random), unit(random));
             std::vector<Ask> asks;
             for (auto leaf : leaves)
                 asks.push_back({p, leaf});
-            const auto pmf = lab().run<float, Ask>(tree_head, "Ask", "float",
-                                                   scene + "result = light_choice_pmf(scene, x.p, x.what);", asks, buffer.address());
+            const auto pmf =
+                lab().run<float, Ask>(tree_head, "Ask", "float",
+                                      scene + "result = light_choice_pmf(scene, x.p, x.what);", asks, buffer.address());
             double sum = 0;
             for (float f : pmf)
                 sum += f;
@@ -294,8 +306,9 @@ TEST_CASE("light tree: each emitter is chosen as often as its probability says")
                 asks.push_back({p, std::uint32_t(random())});
             const auto drawn = lab().run<Answer, Ask>(
                 tree_head, "Ask", "Answer",
-                scene + "result.node = light_choose(scene, x.p, x.what, result.pmf);"
-                        "result.again = result.pmf > 0.0 ? light_choice_pmf(scene, x.p, result.node) : 0.0;",
+                scene +
+                    "result.node = light_choose(scene, x.p, x.what, result.pmf);"
+                    "result.again = result.pmf > 0.0 ? light_choice_pmf(scene, x.p, result.node) : 0.0;",
                 asks, buffer.address());
             std::vector<double> count(tree.nodes.size());
             std::size_t nothing = 0, differ = 0;
@@ -348,7 +361,8 @@ TEST_CASE("light tree: bounds leave out no light") {
             for (int k = 0; k < 4; ++k)
                 mesh.positions.push_back(p + vector());
             mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
-            b.instance(b.mesh(std::move(mesh)), b.diffuse(0, 0, 0), glm::dmat4(1), scene::Emission{glm::vec3(1), i % 2 == 0});
+            b.instance(b.mesh(std::move(mesh)), b.diffuse(0, 0, 0), glm::dmat4(1),
+                       scene::Emission{glm::vec3(1), i % 2 == 0});
         }
         const auto table = table_of(b);
         const auto nodes = upload<shared::LightNode>(table.nodes);
@@ -357,19 +371,20 @@ TEST_CASE("light tree: bounds leave out no light") {
         for (int k = 0; k < 4000; ++k)
             for (std::uint32_t i = 0; i < table.lights.size(); i += 1 + std::uint32_t(random() % 7))
                 asks.push_back({5.f * vector(), i});
-        const auto pmf = lab().run<float, Ask>(
-            tree_head, "Ask", "float",
-            fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;"
-                        "LightArray lights = LightArray({}ul);"
-                        "result = light_choice_pmf(scene, x.p, lights.at[x.what].node);",
-                        table.roots, lights.address()),
-            asks, nodes.address());
+        const auto pmf =
+            lab().run<float, Ask>(tree_head, "Ask", "float",
+                                  fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;"
+                                              "LightArray lights = LightArray({}ul);"
+                                              "result = light_choice_pmf(scene, x.p, lights.at[x.what].node);",
+                                              table.roots, lights.address()),
+                                  asks, nodes.address());
         std::size_t lit = 0, missed = 0;
         for (std::size_t k = 0; k < asks.size(); ++k) {
             const shared::LightData& light = table.lights[asks[k].what];
             bool shines = false;
             if ((light.kind & 255u) >= LIGHT_LAMP) {
-                shines = shared::lamp_ray((light.kind & 255u) - LIGHT_LAMP, light.a, light.b, light.c, asks[k].p).amount > 0;
+                shines =
+                    shared::lamp_ray((light.kind & 255u) - LIGHT_LAMP, light.a, light.b, light.c, asks[k].p).amount > 0;
             } else {
                 const glm::dvec3 normal = glm::cross(glm::dvec3(light.b), glm::dvec3(light.c));
                 const double side = glm::dot(normal, glm::dvec3(asks[k].p) - glm::dvec3(light.a));

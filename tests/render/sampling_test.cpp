@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers and maps of the sphere: Owen-scrambled Sobol pairs, the octahedral and equirectangular maps. Each shader
-// function is checked against its definition.
+// Random numbers and maps of the sphere: Owen-scrambled Sobol pairs, the octahedral and equirectangular maps. Each
+// shader function is checked against its definition.
 #include "render/kernel_lab.hpp"
 #include "render/scene_builder.hpp"
 
@@ -107,6 +107,21 @@ TEST_CASE("sampler: pairs and pixels are independent") {
     INFO("mean chi-square " << sum / couples << " of 63, worst " << worst);
     CHECK(sum / couples < 63 + 4 * std::sqrt(2 * 63.0 / couples));
     CHECK(worst < 63 + 7 * std::sqrt(2 * 63.0));
+}
+
+TEST_CASE("sampler: each use of a pair has one of its own, at every depth") {
+    constexpr std::uint32_t depths = 200;
+    std::vector<std::uint32_t> asked;
+    for (std::uint32_t i = 0; i < 2 + 4 * depths; ++i)
+        asked.push_back(i);
+    auto pairs = lab().run<std::uint32_t, std::uint32_t>(
+        "#include \"lib/sampler.glsl\"", "uint", "uint",
+        "uint d = (x - 2u) / 4u, k = (x - 2u) % 4u;"
+        "result = x == 0u ? PAIR_FILTER : x == 1u ? PAIR_LENS : k == 0u ? pair_light_pick(d) : k == 1u ? pair_light(d)"
+        "       : k == 2u ? pair_bsdf(d) : pair_lobe(d);",
+        asked);
+    std::sort(pairs.begin(), pairs.end());
+    CHECK(std::adjacent_find(pairs.begin(), pairs.end()) == pairs.end());
 }
 
 TEST_CASE("octahedral and equirectangular maps: round trip") {

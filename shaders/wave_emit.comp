@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavefront: hits of surfaces that emit. Few paths hit one, but a shading kernel would do this for all of them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "lib/extensions.glsl"
+#include "wave_common.glsl"
+#include "lib/records.glsl"
+#include "path/emission.glsl"
+
+void main() {
+    uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
+    SceneData scene = wave_scene();
+    RayHit ray = load_ray(push.rays, i);
+    PathState path = load_path(push.paths, i);
+    InstanceData inst = load_instance(push.instances, ray.inst);
+    MaterialData material = load_material(push.materials, ray.geom);
+    StepRay from = StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u);
+    Surface s = surface_at(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, from);
+    if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, ray.tfar, from);
+    vec3 sum = path.radiance + surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
+    PathArray paths = PathArray(push.paths);
+    if (!finite(sum)) {
+        sum = vec3(0);
+        paths.at[i].throughput = vec3(0);
+        count_not_finite(material.type, i);
+    }
+    paths.at[i].radiance = sum;
+}
