@@ -24,8 +24,8 @@ inline std::vector<shared::CdfEntry> make_cdf(std::span<const double> weights) {
         table[i].start = std::uint32_t(std::min(std::floor(below / sum * CDF_TOTAL), double(CDF_TOTAL)));
         below += weights[i];
     }
-    for (std::size_t i = table.size(); i-- > 0 && !(weights[i] > 0);) // what rounding has left over is not theirs
-        table[i].start = CDF_TOTAL;
+    for (std::size_t end = table.size(); end > 0 && !(weights[end - 1] > 0); --end)
+        table[end - 1].start = CDF_TOTAL; // what rounding has left over is not theirs
     std::size_t i = 0;
     for (std::size_t k = 0; k < table.size(); ++k) {
         const std::uint64_t bits = (std::uint64_t(k) << 32) / table.size();

@@ -4,6 +4,7 @@
 // Splitting", without the splitting.
 #ifndef RESTAGE_LIB_LIGHT_TREE
 #define RESTAGE_LIB_LIGHT_TREE
+#include <restage/v1/numbers.glsl>
 #include "lib/sampler.glsl"
 #include "lib/scene.glsl"
 
@@ -71,7 +72,7 @@ uint light_choose(SceneData scene, vec3 p, uint bits, out float pmf) {
         its = 0.0;
         for (uint k = 0u; k < count; ++k) { // u is kept uniform within what has been chosen so far
             float w = light_importance(nodes.at[first + k], p);
-            if (!(w > 0.0)) continue;
+            if (!positive(w)) continue;
             sum += w;
             float q = w / sum;
             if (u < q) {
