@@ -26,8 +26,9 @@ constexpr std::size_t chunk = 2048;           // paths per job
 constexpr std::size_t most_asked = 1 << 18;   // undecided hits per submit
 constexpr std::size_t ahead = 3; // paths prefetched: kernels left them in another cache
 constexpr std::uint8_t type_none = 255, type_emit = WaveKernels::emit, type_escape = WaveKernels::escape;
-// Kernels run whole groups, without a test of the number of paths: on lavapipe everything behind such a test is masked,
-// and a masked load is a branch per lane. A queue's last group is filled with copies of a path of the same type.
+// Kernels over paths run whole groups, without a test of the number of paths: on lavapipe everything behind such a test
+// is masked, and a masked load is a branch per lane. A queue's last group is filled with copies of a path of the same
+// type.
 constexpr std::uint32_t spare_paths = (type_escape + 1) * group_size;
 constexpr std::uint32_t all_paths = wave_paths + spare_paths;
 constexpr std::uint32_t whole_groups(std::uint32_t n) { return (n + group_size - 1) / group_size * group_size; }
