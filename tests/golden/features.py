@@ -73,7 +73,7 @@ KNOWN_BLOCKS = {"mat-displacement-cube": 0.85}
 
 
 def agrees(row):
-    return abs(row["luminance"]) < 0.5 + 3 * row["sigma"] and row["blocks"] > KNOWN_BLOCKS.get(row["name"], 0.97)
+    return abs(row["luminance"]) < 0.5 + 3 * row["sigma"] and row["blocks"] > KNOWN_BLOCKS.get(row.get("name"), 0.97)
 
 
 def read_halves(exr_file, folder, name):
