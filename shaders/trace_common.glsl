@@ -26,7 +26,7 @@ struct HitPayload {
     vec2 bary;
 };
 
-// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 152 bytes.
+// Of executeCallableEXT, location 1: a path and its hit go in, a shadow ray and the next ray come out. 156 bytes.
 struct StepPayload {
     PathState path;    // in, out
     uint instance;     // in
@@ -35,6 +35,7 @@ struct StepPayload {
     float t;           // in: the hit's distance; out: > 0 if there is a next ray
     vec2 bary;         // in
     float tmin;        // in, out: start of the ray
+    uint receiver;     // in, out: of its last vertex
     vec3 origin;       // in, out
     vec3 direction;    // in: of the ray that hit; out: of the next one
     vec3 shadow_origin;

@@ -17,7 +17,7 @@ void main() {
     PathState path = io.path;
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t,
-                        StepRay(io.origin, io.direction, io.t, io.tmin, 0u), path, shadow, contribution, next, guide);
+                        StepRay(io.origin, io.direction, io.t, io.tmin, 0u, io.receiver), path, shadow, contribution, next, guide);
     if (!ok) {
         path.radiance = vec3(0);
         path.throughput = vec3(0);
@@ -34,6 +34,7 @@ void main() {
     io.path = path;
     io.t = next.tmax;
     io.tmin = next.tmin;
+    io.receiver = next.receiver;
     io.origin = next.origin;
     io.direction = next.direction;
     io.shadow_origin = shadow.origin;

@@ -21,7 +21,6 @@ SceneData wave_scene() {
     scene.params = push.params;
     scene.lights = push.lights;
     scene.light_nodes = push.light_nodes;
-    scene.light_roots = push.light_roots;
     scene.max_depth = push.max_depth;
     scene.russian_roulette = push.russian_roulette;
     scene.clamp_direct = push.clamp_direct;

@@ -14,7 +14,7 @@ void main() {
     PathState path = load_path(push.paths, i);
     InstanceData inst = load_instance(push.instances, ray.inst);
     MaterialData material = load_material(push.materials, ray.geom);
-    StepRay from = StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u);
+    StepRay from = StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u, ray.receiver);
     Surface s = surface_at(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, from);
     if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, ray.tfar, from);
     vec3 sum = path.radiance + surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);

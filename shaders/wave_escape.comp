@@ -9,7 +9,8 @@
 void main() {
     uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
     PathState path = PathArray(push.paths).at[i];
-    path_escape(wave_scene(), RayArray(push.rays).at[i].origin, RayArray(push.rays).at[i].direction, path);
+    RayArray rays = RayArray(push.rays);
+    path_escape(wave_scene(), receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
     PathArray(push.paths).at[i].radiance = path.radiance;
     RayArray(push.rays).at[i].tfar = -1.0;
 }

@@ -18,7 +18,7 @@ void main() {
     GuideSample guide;
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar,
-                        StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u), path, shadow, contribution, next, guide);
+                        StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u, ray.receiver), path, shadow, contribution, next, guide);
     if (!ok) {
         path.radiance = vec3(0);
         path.throughput = vec3(0);
@@ -47,6 +47,7 @@ void main() {
         store(out_ray, 1u, next.origin.z, next.tmin);
         store(out_ray, 2u, next.direction.x, next.direction.y);
         store(out_ray, 3u, next.direction.z, 0.0);
+        if (LIGHT_ROOTS > 1u) store(out_ray, 5u, next.receiver, 0u);
     }
     WordPairs out_path = WordPairs(push.paths + uint64_t(i) * 48ul);
     store(out_path, 0u, path.throughput.x, path.throughput.y);

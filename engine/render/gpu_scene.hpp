@@ -120,6 +120,7 @@ class GpuScene {
     Result<void> sync_materials(const scene::Scene&, SceneChanges&);
     bool same_materials_in_use(const scene::Scene&) const; // although instances changed
     Result<void> sync_instances(const scene::Scene&, SceneChanges&, bool all);
+    Result<void> flush_lights();
     Result<void> sync_lights(const scene::Scene&, SceneChanges&, bool all);
     void find_undecided();
     Result<void> sync_root(const scene::Scene&, SceneChanges&);
@@ -182,7 +183,8 @@ class GpuScene {
     GpuArray<shared::SceneData> scene_data_{"scene"};
     LightTable light_table_;
     std::uint32_t quadrics_ = 0; // number that rays may hit
-    bool lights_touched_ = false; // by the last sync_instances: emitters, current or former
+    bool lights_touched_ = false; // by the last sync_instances: emitters that came or went
+    std::vector<scene::Id<scene::Instance>> moved_emitters_; // likewise: those that only moved
     bool reads_files_ = false; // some material in use does; the files may have changed
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;

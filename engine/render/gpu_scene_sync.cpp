@@ -284,6 +284,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         used_material_.resize(n, 0);
     }
     lights_touched_ = false;
+    moved_emitters_.clear();
     std::vector<char> replaced(scene.meshes.size() + 1);
     for (auto id : changes.meshes)
         replaced[id.value] = 1;
@@ -319,8 +320,14 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         if (traced && nothing) record.flags |= INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
-        lights_touched_ |= ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) != 0;
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
+        if ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) {
+            const bool same = !moved_in_or_out && record.flags == instances_[i].flags && mesh_of_[i] == its_mesh;
+            if (same && record.light_base != NONE)
+                moved_emitters_.push_back(id);
+            else
+                lights_touched_ = true;
+        }
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; uploading another zero is harmless
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
             return; // just renamed
@@ -378,7 +385,21 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
         RESTAGE_CHECK(env_rows_.flush(*device_));
         RESTAGE_CHECK(env_columns_.flush(*device_));
     }
-    if (!all && !lights_touched_) return {}; // no emitter changed
+    constexpr std::size_t few = 64;
+    if (!all && !lights_touched_ && moved_emitters_.size() <= few) {
+        const auto replace = [&](Id<scene::Instance> id) {
+            const auto replaced = replace_emitter(light_table_, scene, origin_, id, emitter_of(scene, id));
+            if (!replaced) return false;
+            for (std::uint32_t k = replaced->first; k < replaced->first + replaced->count; ++k) {
+                lights_.set(k, light_table_.lights[k]);
+                light_cdf_.set(k, light_table_.cdf[k]);
+            }
+            for (const std::uint32_t node : replaced->nodes)
+                light_nodes_.set(node, light_table_.nodes[node]);
+            return true;
+        };
+        if (std::ranges::all_of(moved_emitters_, replace)) return flush_lights();
+    }
 
     light_alpha_ = glow_ = false;
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
@@ -399,6 +420,10 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
     light_cdf_.assign(light_table_.cdf);
     light_nodes_.assign(light_table_.nodes);
     RESTAGE_CHECK(instances_.flush(*device_));
+    return flush_lights();
+}
+
+Result<void> GpuScene::flush_lights() {
     RESTAGE_CHECK(lights_.flush(*device_));
     RESTAGE_CHECK(light_cdf_.flush(*device_));
     return light_nodes_.flush(*device_);
@@ -442,7 +467,6 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     d.light_nodes = light_nodes_.address();
     d.light_cdf = light_cdf_.address();
     d.media = media_.address();
-    d.light_roots = light_table_.roots;
     d.environment.light = light_table_.environment;
     if (const auto& env = scene.environment.value) {
         glm::dmat3 rotation(env->light_to_world); // directions are scale-free: a scale cancels

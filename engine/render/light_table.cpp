@@ -281,6 +281,21 @@ shared::LightNode lamp_node(const scene::Light& item, const LightData& light, co
     return node;
 }
 
+// nullopt: it has none.
+std::optional<shared::LightNode> add_emitter(LightTable& table, const scene::Scene& scene, const glm::dvec3& origin,
+                                             Id<scene::Instance> id, const std::optional<Emitter>& emits) {
+    if (!emits || luminance(emits->radiance) <= 0) return std::nullopt;
+    const scene::Instance& instance = scene.instances[id];
+    glm::dmat4 place = instance.object_to_world;
+    place[3] -= glm::dvec4(origin, 0);
+    EmitterBuilder builder(table);
+    if (const auto quadric = scene::quadric_of(scene.meshes[instance.mesh]))
+        add_quadric(builder, *quadric, place, *emits, id.value);
+    else
+        add_triangles(builder, instance, *scene.meshes[instance.mesh].data, place, *emits, id.value);
+    return builder.finish(emits->two_sided);
+}
+
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
@@ -288,17 +303,8 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
     LightTable table;
     table.light_base.assign(scene.instances.size() + 1, NONE);
     std::vector<shared::LightNode> emitters;
-    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance& instance) {
-        const auto emits = emitter(id);
-        if (!emits || luminance(emits->radiance) <= 0) return;
-        glm::dmat4 place = instance.object_to_world;
-        place[3] -= glm::dvec4(origin, 0);
-        EmitterBuilder builder(table);
-        if (const auto quadric = scene::quadric_of(scene.meshes[instance.mesh]))
-            add_quadric(builder, *quadric, place, *emits, id.value);
-        else
-            add_triangles(builder, instance, *scene.meshes[instance.mesh].data, place, *emits, id.value);
-        const auto node = builder.finish(emits->two_sided);
+    scene.instances.each([&](Id<scene::Instance> id, const scene::Instance&) {
+        const auto node = add_emitter(table, scene, origin, id, emitter(id));
         if (!node) return;
         table.light_base[id.value] = node->first;
         emitters.push_back(*node);
@@ -340,6 +346,33 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         for (std::uint32_t i = 0; i < table.nodes[n].lights; ++i)
             table.lights[table.nodes[n].first + i].node = n;
     return table;
+}
+
+std::optional<Replaced> replace_emitter(LightTable& table, const scene::Scene& scene, const glm::dvec3& origin,
+                                        Id<scene::Instance> id, const std::optional<Emitter>& emits) {
+    const std::uint32_t first = id.value < table.light_base.size() ? table.light_base[id.value] : NONE;
+    if (first == NONE) return std::nullopt;
+    LightTable alone;
+    const auto made = add_emitter(alone, scene, origin, id, emits);
+    std::uint32_t at = table.lights[first].node;
+    shared::LightNode& leaf = table.nodes[at];
+    if (!made || made->lights != leaf.lights || ((made->flags ^ leaf.flags) & LIGHT_PIECES)) return std::nullopt;
+    Replaced out{.first = first, .count = leaf.lights, .nodes = {}};
+    for (std::uint32_t i = 0; i < out.count; ++i) {
+        alone.lights[i].node = at;
+        table.lights[first + i] = alone.lights[i];
+        table.cdf[first + i] = alone.cdf[i];
+    }
+    const std::uint32_t parent = leaf.parent;
+    leaf = *made;
+    leaf.first = first;
+    leaf.parent = parent;
+    for (;;) {
+        out.nodes.push_back(at);
+        at = table.nodes[at].parent;
+        if (at == NONE) return out;
+        refit(table.nodes[at], &table.nodes[table.nodes[at].first]);
+    }
 }
 
 } // namespace restage::render

@@ -39,6 +39,16 @@ struct Emitter {
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
                             const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter);
 
+// Replaces the lights of one emitter that is in the table and has moved or changed its emission, and refits the tree:
+// its bounds hold, though it may choose less well than a new one. nullopt: their number or kind differs; nothing is
+// changed.
+struct Replaced {
+    std::uint32_t first = 0, count = 0; // of lights
+    std::vector<std::uint32_t> nodes;
+};
+std::optional<Replaced> replace_emitter(LightTable&, const scene::Scene&, const glm::dvec3& origin,
+                                        scene::Id<scene::Instance>, const std::optional<Emitter>&);
+
 // The outside of a triangle: its normal in world space, by the rule of shaders/path/surface.glsl.
 glm::dvec3 outward_normal(const scene::Instance&, const scene::MeshData&, const glm::uvec3& triangle);
 

@@ -166,4 +166,13 @@ LightTree make_light_tree(std::vector<LightNode> emitters) {
     return tree;
 }
 
+void refit(LightNode& node, const LightNode* children) {
+    std::vector<LightNode> copies(children, children + node.count);
+    LightNode around = merged(copies);
+    around.first = node.first;
+    around.count = node.count;
+    around.parent = node.parent;
+    node = around;
+}
+
 } // namespace restage::render

@@ -21,4 +21,7 @@ struct LightTree {
 // are.
 LightTree make_light_tree(std::vector<shared::LightNode> emitters);
 
+// Of an inner node's children: the node around them. `children`, `parent` and the like stay those of `node`.
+void refit(shared::LightNode& node, const shared::LightNode* children);
+
 } // namespace restage::render

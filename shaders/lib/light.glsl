@@ -48,11 +48,12 @@ float lamp_density(LightData light, vec3 p, float dist, float cos_light) {
     return triangle_density(light.area, dist, cos_light);
 }
 
-// `pick` chooses the emitter, `bits` the point. Loads stand outside of conditions as far as possible: see records.glsl.
-LightSample light_sample(SceneData scene, vec3 p, uint pick, uvec2 bits) {
+// Towards a point. `pick` chooses the emitter, `bits` the place on it. Loads stand outside of conditions as far as possible: see records.glsl.
+LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
+    vec3 p = to.p;
     LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false, 0.0);
     float pmf;
-    uint chosen = light_choose(scene, p, pick, pmf);
+    uint chosen = light_choose(scene, to, pick, pmf);
     LightNode emitter = LightNodeArray(scene.light_nodes).at[chosen];
     LightArray lights = LightArray(scene.lights);
     uint index = emitter.first;

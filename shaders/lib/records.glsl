@@ -20,6 +20,7 @@ RayHit load_ray(address rays, uint i) {
     r.tnear = b.y;
     r.direction = vec3(c, d.x);
     r.tfar = floats_at(w, 4u).x;
+    r.receiver = pair_at(w, 5u).x;
     r.u = floats_at(w, 7u).y;
     r.v = uintBitsToFloat(e.x);
     r.prim = e.y;

@@ -13,6 +13,7 @@ struct StepRay {
     float tmax; // < 0: none
     float tmin; // of path rays: where it continues beyond a lamp without surface, else 0
     uint medium; // at the origin; of shadow rays
+    uint receiver; // receiver_bits at its last vertex; of path rays
 };
 
 // Beer-Lambert up to a hit.
@@ -29,7 +30,7 @@ vec3 surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, 
     float w = 1.0;
     if (LIGHT_ROOTS > 0u && (path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2 && inst.light_base != NONE) {
         LightData light = LightArray(scene.lights).at[inst.light_base + prim];
-        float pdf_light = light.pmf * light_choice_pmf(scene, ray.origin, light.node);
+        float pdf_light = light.pmf * light_choice_pmf(scene, receiver_at(ray.origin, ray.receiver), light.node);
         if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
             pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);
         else

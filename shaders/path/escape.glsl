@@ -17,8 +17,8 @@ vec3 absorb(SceneData scene, uint medium, float distance_) {
     return HAS_MEDIA && !HAS_BORDERS && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
 }
 
-// Radiance of the environment for a path that left the scene; `origin`: its last vertex.
-void path_escape(SceneData scene, vec3 origin, vec3 direction, inout PathState path) {
+// Radiance of the environment for a path that left the scene from its last vertex, `from`.
+void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState path) {
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
     uint depth = path.flags & PATH_DEPTH_MASK;
     // Directly from the camera, also through cut-outs and null surfaces; glass and mirrors show it.
@@ -27,7 +27,7 @@ void path_escape(SceneData scene, vec3 origin, vec3 direction, inout PathState p
     vec3 le = environment_eval(scene.environment, direction, pdf_env);
     float w = 1.0;
     if ((path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2) {
-        float pdf_light = pdf_env * light_choice_pmf(scene, origin, LightArray(scene.lights).at[scene.environment.light].node);
+        float pdf_light = pdf_env * light_choice_pmf(scene, from, LightArray(scene.lights).at[scene.environment.light].node);
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
     if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind the absorber

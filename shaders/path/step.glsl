@@ -32,6 +32,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     shadow.tmax = -1.0;
     next.tmax = -1.0;
     next.tmin = 0.0;
+    next.receiver = 0u;
     shadow_contribution = vec3(0);
     guide = guide_nothing(1.0);
     vec3 wo_world = -ray.direction;
@@ -76,10 +77,11 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
     float u_lobe = to_unit(sample_bits(path.seed, path.sample_index, pair_lobe(depth)).x);
     bool ok = true;
+    uint receiver = receiver_bits(s.ns);
 
     // Next-event estimation
     if (LIGHT_ROOTS > 0u) {
-        LightSample light = light_sample(scene, s.p, pick.x, sample_bits(path.seed, path.sample_index, pair_light(depth)));
+        LightSample light = light_sample(scene, receiver_at(s.p, receiver), pick.x, sample_bits(path.seed, path.sample_index, pair_light(depth)));
         if (!last && light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
@@ -155,6 +157,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         return false;
     }
     next.tmax = 1e30;
+    next.receiver = receiver;
     return true;
 }
 

@@ -26,7 +26,7 @@ struct RayHit { // 80 bytes
     float time;
     float tfar; // in: infinity, or negative for a dead path; out: hit distance
     uint mask;
-    uint id;
+    uint receiver; // receiver_bits at its origin (lib/light_tree.glsl); Embree's id
     uint flags;
     vec3 ng; // not used
     float u, v;

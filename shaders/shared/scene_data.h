@@ -192,7 +192,6 @@ struct SceneData {
     EnvironmentData environment;
     CameraData camera;
     FilterData filter_;
-    uint light_roots; // the first nodes: children of the root
     uint max_depth;
     uint russian_roulette;
     uint camera_medium;

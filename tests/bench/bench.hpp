@@ -75,6 +75,7 @@ struct Options { // of all measurements
 Json measure_rays(const Options&);
 Json measure_cutouts(const Options&);
 Json measure_edits(const Options&);
+Json measure_lamps(const Options&);
 Json measure_copies(const Options&);
 Json measure_actions(const Options&);
 Json measure_features(const Options&, const std::string& variant);

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     program.add_subcommand("rays", "Rays per second in the room")->callback([&] { result = measure_rays(o); });
     program.add_subcommand("cutouts", "Rays per second among cards: opaque, cut out by native code, by GLSL only")
         ->callback([&] { result = measure_cutouts(o); });
+    program.add_subcommand("lamps", "Many lamps")->callback([&] { result = measure_lamps(o); });
     program.add_subcommand("edits", "Edits of one of 1000 instances")->callback([&] { result = measure_edits(o); });
     program.add_subcommand("copies", "Copies of a scene of many objects, and a frame of a drag")->callback([&] {
         result = measure_copies(o);

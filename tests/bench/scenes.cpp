@@ -167,4 +167,20 @@ Scene crowd(std::uint32_t count, std::uint32_t cells, std::vector<Id<Instance>>&
     return std::move(b.scene);
 }
 
+Scene lamp_field(std::uint32_t count, std::vector<Id<Instance>>& lamps) {
+    Builder b(64, 3);
+    const int side = int(std::ceil(std::sqrt(double(count))));
+    b.look({0, side * 0.3, side * 0.6}, {0, 0, 0}, 50);
+    const float half = float(side) * 0.6f;
+    b.instance(b.rectangle({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}), b.diffuse(.5f, .5f, .5f));
+    const auto lamp = b.rectangle({-.05f, 0, -.05f}, {.1f, 0, 0}, {0, 0, .1f});
+    const auto black = b.diffuse(0, 0, 0);
+    for (std::uint32_t k = 0; k < count; ++k)
+        lamps.push_back(
+            b.instance(lamp, black,
+                       glm::translate(dmat4(1), dvec3(int(k) % side - side * .5, 1 + k % 5, int(k) / side - side * .5)),
+                       Emission{.radiance = vec3(float(1 + k % 7))}));
+    return std::move(b.scene);
+}
+
 } // namespace restage::bench

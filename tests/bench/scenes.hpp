@@ -16,6 +16,9 @@ scene::Scene room(std::uint32_t bounces);
 // Cornell box, diffuse only, 8 instances, 32 triangles. 512x512, 5 bounces.
 scene::Scene cornell();
 
+// So many lamps of 0.1 x 0.1 in rows 1 apart, 1 to 5 above a floor, that shine down on it.
+scene::Scene lamp_field(std::uint32_t count, std::vector<scene::Id<scene::Instance>>& lamps);
+
 // `count` instances of one sphere of `cells`^2 * 12 triangles over a floor, four materials. `spheres` gets the ids.
 scene::Scene crowd(std::uint32_t count, std::uint32_t cells, std::vector<scene::Id<scene::Instance>>& spheres);
 

@@ -2,6 +2,7 @@
 // Which light, and where on it: distributions drawn in order, the light table, the tree of emitters. Shader functions
 // are held to their definitions in double precision.
 #include "render/cdf_table.hpp"
+#include "render/checks.hpp"
 #include "render/kernel_lab.hpp"
 #include "render/light_table.hpp"
 #include "render/light_tree.hpp"
@@ -116,12 +117,14 @@ TEST_CASE("cdf: each of 33 million texels can be reached") {
 
 namespace {
 
+std::optional<render::Emitter> emitter_in(const SceneBuilder& b, scene::Id<scene::Instance> id) {
+    const auto& e = b.scene.instances[id].emission;
+    return e ? std::optional(render::Emitter{.radiance = e->radiance, .two_sided = e->two_sided, .mean = {}})
+             : std::nullopt;
+}
 render::LightTable table_of(const SceneBuilder& b, const glm::vec3& environment = glm::vec3(0)) {
-    return render::make_light_table(b.scene, glm::dvec3(0), environment, [&](scene::Id<scene::Instance> id) {
-        const auto& e = b.scene.instances[id].emission;
-        return e ? std::optional(render::Emitter{.radiance = e->radiance, .two_sided = e->two_sided, .mean = {}})
-                 : std::nullopt;
-    });
+    return render::make_light_table(b.scene, glm::dvec3(0), environment,
+                                    [&](scene::Id<scene::Instance> id) { return emitter_in(b, id); });
 }
 
 } // namespace
@@ -208,8 +211,8 @@ TEST_CASE("a lamp of two triangles gets its points in the order of the unit squa
         const auto ends = lab().run<glm::vec3, glm::uvec2>(
             "#include \"lib/light.glsl\"", "uvec2", "vec3",
             fmt::format("SceneData scene; scene.lights = {}ul; scene.light_cdf = {}ul; scene.light_nodes = {}ul;"
-                        "scene.light_roots = 1u; scene.ray_epsilon = 1e-30;"
-                        "LightSample s = light_sample(scene, vec3(9.0, 5.0, 30.0), 0x80000000u, x);"
+                        "scene.ray_epsilon = 1e-30;"
+                        "LightSample s = light_sample(scene, receiver_at(vec3(9.0, 5.0, 30.0), 0u), 0x80000000u, x);"
                         "result = s.pdf > 0.0 ? s.end : vec3(1e30);",
                         lights.address(), cdf.address(), nodes.address()),
             bits);
@@ -262,11 +265,12 @@ std::vector<shared::LightNode> random_emitters(std::size_t n, std::mt19937& rand
 }
 
 const char* const tree_head =
-    "#include \"lib/light_tree.glsl\"\nstruct Ask { vec3 p; uint what; };\n"
+    "#include \"lib/light_tree.glsl\"\nstruct Ask { vec3 p; uint what; uint normal; };\n"
     "struct Answer { uint node; float pmf; float again; };";
 struct Ask {
     glm::vec3 p;
     std::uint32_t what;
+    std::uint32_t normal = 0; // receiver_bits
 };
 struct Answer {
     std::uint32_t node;
@@ -285,16 +289,17 @@ TEST_CASE("light tree: each emitter is chosen as often as its probability says")
         for (std::uint32_t i = 0; i < tree.nodes.size(); ++i)
             if (tree.nodes[i].lights > 0) leaves.push_back(i);
         REQUIRE(leaves.size() == n);
-        const std::string scene =
-            fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;", tree.roots);
+        const std::string scene = "SceneData scene; scene.light_nodes = root;";
         for (int k = 0; k < 4; ++k) {
             const glm::vec3 p(unit(random), unit(random), unit(random));
+            const auto normal = std::uint32_t(random());
             std::vector<Ask> asks;
             for (auto leaf : leaves)
-                asks.push_back({p, leaf});
+                asks.push_back({p, leaf, normal});
             const auto pmf =
                 lab().run<float, Ask>(tree_head, "Ask", "float",
-                                      scene + "result = light_choice_pmf(scene, x.p, x.what);", asks, buffer.address());
+                                      scene + "result = light_choice_pmf(scene, receiver_at(x.p, x.normal), x.what);",
+                                      asks, buffer.address());
             double sum = 0;
             for (float f : pmf)
                 sum += f;
@@ -303,12 +308,13 @@ TEST_CASE("light tree: each emitter is chosen as often as its probability says")
             constexpr std::uint32_t draws = 1 << 17;
             asks.clear();
             for (std::uint32_t i = 0; i < draws; ++i)
-                asks.push_back({p, std::uint32_t(random())});
+                asks.push_back({p, std::uint32_t(random()), normal});
             const auto drawn = lab().run<Answer, Ask>(
                 tree_head, "Ask", "Answer",
                 scene +
-                    "result.node = light_choose(scene, x.p, x.what, result.pmf);"
-                    "result.again = result.pmf > 0.0 ? light_choice_pmf(scene, x.p, result.node) : 0.0;",
+                    "result.node = light_choose(scene, receiver_at(x.p, x.normal), x.what, result.pmf);"
+                    "result.again = result.pmf > 0.0 ? light_choice_pmf(scene, receiver_at(x.p, x.normal), "
+                    "result.node) : 0.0;",
                 asks, buffer.address());
             std::vector<double> count(tree.nodes.size());
             std::size_t nothing = 0, differ = 0;
@@ -370,14 +376,14 @@ TEST_CASE("light tree: bounds leave out no light") {
         std::vector<Ask> asks;
         for (int k = 0; k < 4000; ++k)
             for (std::uint32_t i = 0; i < table.lights.size(); i += 1 + std::uint32_t(random() % 7))
-                asks.push_back({5.f * vector(), i});
-        const auto pmf =
-            lab().run<float, Ask>(tree_head, "Ask", "float",
-                                  fmt::format("SceneData scene; scene.light_nodes = root; scene.light_roots = {}u;"
-                                              "LightArray lights = LightArray({}ul);"
-                                              "result = light_choice_pmf(scene, x.p, lights.at[x.what].node);",
-                                              table.roots, lights.address()),
-                                  asks, nodes.address());
+                asks.push_back({5.f * vector(), i, std::uint32_t(random())});
+        const auto pmf = lab().run<float, Ask>(
+            tree_head, "Ask", "float",
+            fmt::format("SceneData scene; scene.light_nodes = root;"
+                        "LightArray lights = LightArray({}ul);"
+                        "result = light_choice_pmf(scene, receiver_at(x.p, x.normal), lights.at[x.what].node);",
+                        lights.address()),
+            asks, nodes.address());
         std::size_t lit = 0, missed = 0;
         for (std::size_t k = 0; k < asks.size(); ++k) {
             const shared::LightData& light = table.lights[asks[k].what];
@@ -397,4 +403,50 @@ TEST_CASE("light tree: bounds leave out no light") {
         CHECK(lit > 1000);
         CHECK(missed == 0);
     }
+}
+
+TEST_CASE("light table: a lamp that moves is replaced, and the tree still holds all") {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    SceneBuilder b;
+    std::vector<scene::Id<scene::Instance>> lamps;
+    const auto shape = b.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    for (int i = 0; i < 100; ++i)
+        lamps.push_back(b.instance(shape, b.diffuse(0, 0, 0), placed({10 * unit(random), 10 * unit(random), i}),
+                                   scene::Emission{glm::vec3(1), i % 2 == 0}));
+    auto table = table_of(b);
+    for (int i = 0; i < 100; i += 9) {
+        edit_instance(b, lamps[std::size_t(i)], [&](scene::Instance& lamp) {
+            lamp.object_to_world =
+                glm::rotate(placed({20 * unit(random), 20 * unit(random), 5}), double(i), glm::dvec3(1, 1, 0));
+            lamp.emission->radiance = glm::vec3(2 + unit(random));
+        });
+        const auto replaced = render::replace_emitter(table, b.scene, glm::dvec3(0), lamps[std::size_t(i)],
+                                                      emitter_in(b, lamps[std::size_t(i)]));
+        REQUIRE(replaced);
+        CHECK(replaced->count == 2);
+    }
+    const auto fresh = table_of(b);
+    REQUIRE(fresh.lights.size() == table.lights.size());
+    for (std::size_t i = 0; i < fresh.lights.size(); ++i) {
+        auto mine = table.lights[i];
+        mine.node = fresh.lights[i].node;
+        CHECK(std::memcmp(&mine, &fresh.lights[i], sizeof(mine)) == 0);
+    }
+    double intensity = 0;
+    for (std::size_t n = 0; n < table.nodes.size(); ++n) {
+        const auto& node = table.nodes[n];
+        if (node.parent == NONE) intensity += node.intensity;
+        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+            CHECK(table.nodes[k].parent == n);
+            CHECK(glm::length(table.nodes[k].center - node.center) + table.nodes[k].radius <=
+                  node.radius * (1 + 1e-5f));
+        }
+    }
+    double expected = 0;
+    for (const auto& node : fresh.nodes)
+        if (node.parent == NONE) expected += node.intensity;
+    CHECK(std::abs(intensity / expected - 1) < 1e-5);
+    // no longer a lamp
+    CHECK_FALSE(render::replace_emitter(table, b.scene, glm::dvec3(0), lamps[0], std::nullopt));
 }
