@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage merge A.exr B.exr ... -o OUT: combines separately rendered parts of one picture.
 #include "commands.hpp"
+#include "render/film_error.hpp"
 #include "rendering.hpp"
 #include "standard_streams.hpp"
 #include "view/merge_pictures.hpp"
@@ -36,7 +37,7 @@ Result<int> run(Context& context, Options& o) {
     RESTAGE_CHECK(write_picture(output.path(), picture, o.picture));
     RESTAGE_CHECK(output.finish());
     context.log.info(fmt::format("{}: {} spp, relative error {:.4f}", o.output, picture.film.samples,
-                                 view::relative_error(picture.film)));
+                                 render::relative_error(picture.film)));
     return int(exit_ok);
 }
 

@@ -7,6 +7,7 @@
 #include "frames.hpp"
 #include "import_options.hpp"
 #include "progress.hpp"
+#include "render/film_error.hpp"
 #include "rendering.hpp"
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
@@ -159,12 +160,7 @@ Result<void> add_to(const view::StoredPicture& before, Picture& picture, Metadat
     view::StoredPicture now{
         .film = std::move(picture.film), .layers = {names.begin(), names.end()}, .metadata = metadata, .ranges = {}};
     now.ranges = {{seed, first, now.film.samples}};
-    const float e = std::exchange(picture.exposure, 1.f); // files contain it
-    for (std::size_t i = 0; i < now.film.color.size(); ++i) {
-        now.film.color[i] *= e;
-        now.film.std_error[i] *= e;
-        now.film.luminance_variance[i] *= e * e;
-    }
+    now.film.expose(std::exchange(picture.exposure, 1.f)); // files contain it
     const view::StoredPicture both[] = {before, std::move(now)};
     RESTAGE_TRY(auto merged, view::merge_pictures(both));
     picture.film = std::move(merged.film);
@@ -219,7 +215,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     RESTAGE_CHECK(write(o.outputs, picture, o.picture));
 
     const auto& stats = renderer->stats();
-    const double relative_error = before ? view::relative_error(picture.film) : renderer->relative_error();
+    const double relative_error = before ? render::relative_error(picture.film) : renderer->relative_error();
     if (!o.statistics.empty()) {
         const std::string text = statistics(o, *renderer, picture, relative_error).dump(2) + "\n";
         if (o.statistics == "-")

@@ -74,7 +74,7 @@ class EmbreeTracer final : public Tracer {
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
         RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
-        const std::uint32_t pixels = film.width() * film.height();
+        const std::uint32_t pixels = film.width() * film.rows();
         // A wave covers all pixels with several samples each, or some pixels with one sample each.
         const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
         for (std::uint32_t s = 0; going && s < request.samples; s += samples)
@@ -88,6 +88,7 @@ class EmbreeTracer final : public Tracer {
                 f.crop_x = request.crop_x;
                 f.crop_y = request.crop_y;
                 f.crop_width = film.width();
+                f.crop_height = film.height();
                 f.seed = request.seed;
                 f.film = film.pixels();
                 f.film_guides = film.guides();
@@ -132,7 +133,6 @@ class EmbreeTracer final : public Tracer {
                  .light_nodes = data.light_nodes,
                  .queue_first = 0,
                  .queue_count = 0,
-                 .light_roots = data.light_roots,
                  .max_depth = data.max_depth,
                  .russian_roulette = data.russian_roulette,
                  .clamp_direct = data.clamp_direct,

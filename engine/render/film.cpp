@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film.hpp"
 
+#include "render/film_error.hpp"
+#include "shared/twins.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace restage::render {
 
@@ -11,7 +15,7 @@ Result<Film> Film::create(gpu::Device& device, std::uint32_t width, std::uint32_
     Film film;
     film.width_ = width;
     film.height_ = height;
-    const std::size_t n = std::size_t(width) * height;
+    const std::size_t n = std::size_t(width) * film.rows();
     RESTAGE_TRY(film.pixels_, device.create_buffer(n * sizeof(shared::FilmPixel), gpu::BufferKind::readback, "film"));
     RESTAGE_TRY(film.guides_,
                 device.create_buffer(n * sizeof(shared::GuidePixel), gpu::BufferKind::readback, "guides"));
@@ -32,6 +36,26 @@ FilmImage FilmImage::blank(std::uint32_t width, std::uint32_t height) {
     return image;
 }
 
+void FilmImage::expose(float exposure) {
+    if (exposure == 1) return;
+    each_film_layer([&](const auto& layer) {
+        if (layer.source != LayerSource::samples) return;
+        for (auto& value : this->*layer.values)
+            if constexpr (std::is_same_v<decltype(value), float&>)
+                value *= exposure * exposure; // a variance
+            else if constexpr (!std::is_same_v<decltype(value), std::uint32_t&>)
+                value *= exposure;
+    });
+}
+
+// Of independent samples: the variance of their mean.
+static double luminance_variance(const shared::FilmPixel& p) {
+    const double count = p.count, mean = luminance(p.sum) / count;
+    return count > 1 ? std::max(0.0, (p.sum_sq_luminance / count - mean * mean) / (count - 1)) : 0;
+}
+
+std::uint32_t Film::rows() const { return height_ + (height_ + TWIN_ROWS - 1) / TWIN_ROWS; }
+
 FilmImage Film::read() const {
     FilmImage image = FilmImage::blank(width_, height_);
     const std::size_t n = image.pixels();
@@ -45,12 +69,19 @@ FilmImage Film::read() const {
             image.color[i] = mean;
             if (p.count > 1) {
                 const glm::dvec3 variance = (glm::dvec3(p.sum_sq) / count - mean * mean) / (count - 1);
-                image.std_error[i] = glm::sqrt(glm::max(variance, glm::dvec3(0)));
-                const double l = glm::dot(mean, glm::dvec3(0.2126, 0.7152, 0.0722));
-                image.luminance_variance[i] = float(std::max(0.0, (p.sum_sq_luminance / count - l * l) / (count - 1)));
+                image.sample_error[i] = glm::sqrt(glm::max(variance, glm::dvec3(0)));
+                image.luminance_variance[i] = float(luminance_variance(p));
             }
         }
     }
+    for (std::uint32_t row = 0; row < rows() - height_; ++row)
+        for (std::uint32_t x = 0; x < width_; ++x) {
+            const auto& p = pixels[std::size_t(height_ + row) * width_ + x];
+            if (p.count > 0)
+                image.twin[std::size_t(shared::twin_of(x, row, height_)) * width_ + x] = {
+                    luminance(p.sum) / p.count, std::sqrt(luminance_variance(p))};
+        }
+    correct_errors(image);
     each_film_layer([&](const auto& layer) {
         if (layer.source == LayerSource::samples) return;
         auto& values = image.*layer.values;
@@ -72,19 +103,6 @@ std::uint32_t Film::least_samples() const {
     return least == pixels.end() ? 0 : std::uint32_t(least->count);
 }
 
-double Film::relative_error() const {
-    double sum = 0;
-    const auto pixels = pixels_.span<shared::FilmPixel>();
-    std::size_t n = 0;
-    for (const auto& p : pixels.first(std::size_t(width_) * height_)) {
-        if (p.count < 2) continue;
-        const double count = p.count;
-        const double mean = glm::dot(glm::dvec3(p.sum), glm::dvec3(0.2126, 0.7152, 0.0722)) / count;
-        const double variance = std::max(0.0, (p.sum_sq_luminance / count - mean * mean) / (count - 1));
-        sum += variance / ((mean + 0.01) * (mean + 0.01));
-        ++n;
-    }
-    return n ? std::sqrt(sum / double(n)) : 1e30;
-}
+double Film::relative_error() const { return render::relative_error(read()); }
 
 } // namespace restage::render

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Film: sums, sums of squares and counts per pixel, and guide images. Every image knows its own error.
+// Film: sums, sums of squares and counts per pixel, and guide images. Every image knows its own error: some pixels are
+// rendered a second time (shared/twins.h).
 #pragma once
 
 #include "gpu/device.hpp"
@@ -16,11 +17,12 @@ class Film {
     void clear();
     std::uint32_t width() const { return width_; }
     std::uint32_t height() const { return height_; }
+    std::uint32_t rows() const; // to render: the height, and the rows of twins below
     std::uint64_t pixels() const { return pixels_.address(); }
     std::uint64_t guides() const { return guides_.address(); }
     FilmImage read() const;
     std::uint32_t least_samples() const; // minimum over all pixels
-    // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), the measure of --error.
+    // As relative_error() of its image (film_error.hpp).
     double relative_error() const;
 
   private:

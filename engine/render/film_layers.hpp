@@ -19,9 +19,10 @@ struct FilmImage {
     std::uint32_t width = 0, height = 0;
     std::uint32_t samples = 0;           // minimum over pixels
     std::vector<glm::vec3> color;        // linear sRGB radiance, exposure not applied
-    std::vector<glm::vec3> std_error; // of the mean, per channel; assumes independent samples, so an upper bound for
-                                      // stratified ones. 0 with fewer than 2 samples
+    std::vector<glm::vec3> std_error; // of the mean, per channel; 0 with fewer than 2 samples. See film_error.hpp
     std::vector<float> luminance_variance; // of the mean
+    std::vector<glm::vec3> sample_error; // what std_error would be if samples were independent
+    std::vector<glm::vec2> twin; // luminance of the pixel's twin and, likewise, its error; 0: it has none
     // Of the first hit that is not a mirror or smooth glass, for the denoiser.
     std::vector<glm::vec3> albedo; // [0,1], times the throughput of the mirrors and glasses
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
@@ -29,6 +30,7 @@ struct FilmImage {
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = none
 
     static FilmImage blank(std::uint32_t width, std::uint32_t height); // all zeros
+    void expose(float exposure); // multiplies what is radiance
     std::size_t pixels() const { return std::size_t{width} * height; }
 };
 
@@ -82,6 +84,24 @@ inline constexpr std::tuple film_layers{
                      .look = LayerLook::hidden,
                      .label = "",
                      .doc = ""},
+    FilmLayer<glm::vec3>{.values = &FilmImage::sample_error,
+                         .name = "",
+                         .in_file = "stderr",
+                         .channels = {"sampleR", "sampleG", "sampleB"},
+                         .source = LayerSource::samples,
+                         .guide = nullptr,
+                         .look = LayerLook::hidden,
+                         .label = "",
+                         .doc = ""},
+    FilmLayer<glm::vec2>{.values = &FilmImage::twin,
+                         .name = "",
+                         .in_file = "stderr",
+                         .channels = {"twinY", "twinError"},
+                         .source = LayerSource::samples,
+                         .guide = nullptr,
+                         .look = LayerLook::hidden,
+                         .label = "",
+                         .doc = ""},
     FilmLayer<glm::vec3>{.values = &FilmImage::albedo,
                          .name = "albedo",
                          .in_file = "albedo",

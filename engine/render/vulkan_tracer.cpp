@@ -103,6 +103,7 @@ class VulkanTracer final : public Tracer {
         f.crop_x = request.crop_x;
         f.crop_y = request.crop_y;
         f.crop_width = film.width();
+        f.crop_height = film.height();
         f.pixel_count = film.width() * film.height();
         f.seed = request.seed;
         f.samples = request.samples;
@@ -276,7 +277,7 @@ class VulkanTracer final : public Tracer {
     }
 
     Result<void> trace_rectangles(const Film& film, const TraceRequest& request) {
-        const std::uint32_t width = film.width(), height = film.height();
+        const std::uint32_t width = film.width(), height = film.rows();
         for (std::uint32_t s = 0, samples = 0; s < request.samples; s += samples) {
             samples = std::clamp(paths_now_ / (width * height), 1u, request.samples - s);
             Rectangle r;

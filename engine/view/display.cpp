@@ -125,7 +125,7 @@ void to_display(const render::FilmImage& image, const DisplaySettings& settings,
                 show_color(values, curve(ToneCurve::srgb), 1, rgba.data());
         } else if constexpr (std::is_same_v<V, float>) {
             show_distance(values, rgba.data());
-        } else {
+        } else if constexpr (std::is_same_v<V, std::uint32_t>) {
             std::ranges::transform(values, rgba.begin(), id_color);
         }
     });

@@ -32,7 +32,7 @@ struct Frame {
     std::string denoiser; // its type, if `denoised`
     bool clay = false; // first hits only, see render/clay.hpp; colours in [0,1], not to be exposed
     double seconds = 0; // since that show()
-    double relative_error = 1e30; // of the traced picture; Film::relative_error
+    double relative_error = 1e30; // of the traced picture; render::relative_error
 };
 
 struct ViewOptions {

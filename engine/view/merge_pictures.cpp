@@ -2,6 +2,7 @@
 #include "view/merge_pictures.hpp"
 
 #include "io/exr.hpp"
+#include "render/film_error.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -15,9 +16,7 @@ using render::FilmImage;
 
 namespace {
 
-double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
-
-// Sums and sums of squares are additive: recover them from the film's mean and error of the mean.
+// Sums and sums of squares are additive: recover them from the film's mean and the error that independent samples have.
 template <class D> // double or dvec3
 struct Moments {
     D sum{0}, square{0};
@@ -36,23 +35,26 @@ struct Moments {
 
 void merge_pixel(std::span<const PicturePart> parts, std::size_t i, FilmImage& out) {
     Moments<glm::dvec3> color;
-    Moments<double> light;
+    Moments<double> light, twin;
     for (const PicturePart& part : parts) {
         const FilmImage& film = *part.film;
         const double n = film.samples;
-        const glm::dvec3 error = film.std_error[i];
+        const glm::dvec3 error = film.sample_error[i];
         color.add(film.color[i], error * error, n);
-        light.add(luminance(film.color[i]), film.luminance_variance[i], n);
+        light.add(render::luminance(film.color[i]), render::independent_variance(film, i), n);
+        const glm::dvec2 t = film.twin[i];
+        if (t != glm::dvec2(0)) twin.add(t.x, t.y * t.y, n);
     }
     out.color[i] = color.mean();
-    out.std_error[i] = glm::sqrt(color.variance_of_mean());
+    out.sample_error[i] = glm::sqrt(color.variance_of_mean());
     out.luminance_variance[i] = float(light.variance_of_mean());
+    out.twin[i] = twin.n > 0 ? glm::dvec2(twin.mean(), std::sqrt(twin.variance_of_mean())) : glm::dvec2(0);
 }
 
 // Ids and other first-sample layers stay those of `out`.
 template <class V>
 void merge_means(std::span<const PicturePart> parts, const render::FilmLayer<V>& layer, FilmImage& out) {
-    if constexpr (!std::is_same_v<V, std::uint32_t>) {
+    if constexpr (std::is_same_v<V, float> || std::is_same_v<V, glm::vec3>) {
         using Sum = std::conditional_t<std::is_same_v<V, float>, double, glm::dvec3>;
         double samples = 0;
         std::vector<Sum> sums(out.pixels(), Sum(0));
@@ -102,8 +104,8 @@ void read_layer(const io::ExrImage& image, const std::string& name, const render
             const float v = in.values[i * stride + at[0]];
             values[i] = layer.source == render::LayerSource::samples ? v * v : v;
         } else {
-            for (int k = 0; k < 3; ++k)
-                values[i][k] = in.values[i * stride + at[std::size_t(k)]];
+            for (std::size_t k = 0; k < at.size(); ++k)
+                values[i][int(k)] = in.values[i * stride + at[k]];
         }
 }
 
@@ -167,19 +169,11 @@ Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
     out.samples = std::uint32_t(std::min<std::uint64_t>(samples, ~0u));
     for (std::size_t i = 0; i < out.color.size(); ++i)
         merge_pixel(parts, i, out);
+    render::correct_errors(out);
     render::each_film_layer([&](const auto& layer) {
         if (layer.source == render::LayerSource::mean) merge_means(parts, layer, out);
     });
     return out;
-}
-
-double relative_error(const FilmImage& film) {
-    double sum = 0;
-    for (std::size_t i = 0; i < film.color.size(); ++i) {
-        const double l = luminance(film.color[i]) + 0.01;
-        sum += film.luminance_variance[i] / (l * l);
-    }
-    return film.samples > 1 ? std::sqrt(sum / double(film.color.size())) : 1e30;
 }
 
 std::string to_text(std::span<const SampleRange> ranges) {
@@ -213,8 +207,8 @@ Result<StoredPicture> read_picture(const std::string& path) {
     });
     if (lacking.contains("stderr"))
         return fail(path +
-                    ": has no layer \"stderr\" with R, G, B and Y, so nothing can be added to it; render "
-                    "with --aov all or stderr");
+                    ": has no layer \"stderr\" as this version writes it, so nothing can be added to it; "
+                    "render it with this version and with --aov all or stderr");
     render::each_film_layer([&](const auto& layer) {
         if (lacking.contains(layer.in_file)) return;
         read_layer(image, layer.in_file, layer, film);

@@ -22,9 +22,6 @@ struct PicturePart {
 // the part with the earliest first sample. An error if sizes differ or a part has no samples. [any]
 Result<render::FilmImage> merge_films(std::span<const PicturePart>);
 
-// As Film::relative_error; 1e30 with fewer than two samples.
-double relative_error(const render::FilmImage&);
-
 // The sample numbers per pixel that a picture contains.
 struct SampleRange {
     std::uint32_t seed = 0, first = 0, count = 0;

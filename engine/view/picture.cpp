@@ -42,9 +42,9 @@ void add_layer(io::ExrImage& image, const std::string& name, const render::FilmL
     for (std::size_t i = 0; i < values.size(); ++i) {
         std::copy_n(held.data() + i * before, before, &all[i * stride]);
         T* out = &all[i * stride + before];
-        if constexpr (std::is_same_v<V, glm::vec3>)
-            for (int k = 0; k < 3; ++k)
-                out[k] = values[i][k] * scale;
+        if constexpr (std::is_same_v<V, glm::vec3> || std::is_same_v<V, glm::vec2>)
+            for (std::size_t k = 0; k < count; ++k)
+                out[k] = values[i][int(k)] * scale;
         else if constexpr (std::is_same_v<V, float>)
             *out = from.source == render::LayerSource::samples ? std::sqrt(values[i]) * scale : values[i];
         else

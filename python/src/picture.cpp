@@ -6,6 +6,7 @@
 
 #include "base/file.hpp"
 #include "render/denoise.hpp"
+#include "render/film_error.hpp"
 #include "view/merge_pictures.hpp"
 #include "view/picture.hpp"
 
@@ -40,12 +41,14 @@ A view(nb::handle self, std::vector<V>& data) {
 
 template <class V>
 void array(nb::class_<Picture>& c, const render::FilmLayer<V>& layer) {
-    using A = std::conditional_t<std::is_same_v<V, glm::vec3>, Rgb,
-                                 std::conditional_t<std::is_same_v<V, float>, Scalar, Ids>>;
-    c.def_prop_ro(
-        layer.name,
-        [values = layer.values](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*values); },
-        layer.doc);
+    if constexpr (!std::is_same_v<V, glm::vec2>) { // those are internal
+        using A = std::conditional_t<std::is_same_v<V, glm::vec3>, Rgb,
+                                     std::conditional_t<std::is_same_v<V, float>, Scalar, Ids>>;
+        c.def_prop_ro(
+            layer.name,
+            [values = layer.values](nb::handle self) { return view<A>(self, nb::cast<Owner>(self)->film.*values); },
+            layer.doc);
+    }
 }
 
 nb::object mask(const Owner& p, nb::handle thing) {
@@ -242,7 +245,7 @@ void bind_picture(nb::module_& m) {
         .def_prop_ro(
             "samples", [](const Picture& p) { return p.film.samples; }, "Samples per pixel (the minimum over all).")
         .def_prop_ro(
-            "relative_error", [](const Picture& p) { return view::relative_error(p.film); },
+            "relative_error", [](const Picture& p) { return render::relative_error(p.film); },
             "Root mean square of standard error over luminance, the measure of render(error=...).")
         .def_ro("seconds", &Picture::seconds, "Time it took to trace [s].")
         .def_ro("seed", &Picture::seed, "Seed of its random numbers.")

@@ -40,7 +40,7 @@ vec2 sample_pair(uint seed, uint index, uint pair) {
     return vec2(to_unit(bits.x), to_unit(bits.y));
 }
 
-uint pixel_seed(uint pixel, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^ 0xb5297a4du)); }
+uint pixel_seed(uint pixel, bool twin, uint seed) { return pcg_hash(pixel ^ pcg_hash(seed ^ (twin ? 0x9d2c5680u : 0xb5297a4du))); }
 
 // The table of a path's pairs: two for the camera, then four per vertex. Who else needs random numbers takes a new row.
 const uint PAIR_FILTER = 0u;                                  // a point of the pixel filter

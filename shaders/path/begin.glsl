@@ -5,11 +5,15 @@
 #include "lib/camera.glsl"
 #include "lib/sampler.glsl"
 #include "shared/path_data.h"
+#include "shared/twins.h"
 
-// pixel: of the crop window, row by row. The path's throughput is the weight of the pixel filter.
+// pixel: of the film, row by row, also those of its twins. The path's throughput is the weight of the pixel filter.
 PathState path_begin(SceneRef scene, FrameData frame, uint pixel, uint sample_index, out vec3 origin, out vec3 direction) {
-    uvec2 xy = uvec2(frame.crop_x + pixel % frame.crop_width, frame.crop_y + pixel / frame.crop_width);
-    uint seed = pixel_seed(xy.y * scene.scene.camera.width + xy.x, frame.seed);
+    uvec2 xy = uvec2(pixel % frame.crop_width, pixel / frame.crop_width);
+    bool twin = xy.y >= frame.crop_height;
+    if (twin) xy.y = twin_of(xy.x, xy.y - frame.crop_height, frame.crop_height);
+    xy += uvec2(frame.crop_x, frame.crop_y);
+    uint seed = pixel_seed(xy.y * scene.scene.camera.width + xy.x, twin, frame.seed);
     float weight;
     vec2 offset = filter_sample(scene.scene.filter_, sample_pair(seed, sample_index, PAIR_FILTER), weight);
     vec2 u_lens = HAS_LENS ? sample_pair(seed, sample_index, PAIR_LENS) : vec2(0.5);

@@ -68,13 +68,11 @@ struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the fi
     uint pad0;
 };
 
-struct FilmPixel { // 40 bytes
+struct FilmPixel { // 32 bytes
     vec3 sum; // of radiance
     float count;
-    float sum_sq_luminance;
-    float pad0;
     vec3 sum_sq; // of each channel
-    float pad1;
+    float sum_sq_luminance;
 };
 struct GuidePixel {
     vec3 albedo;
@@ -96,11 +94,11 @@ struct FrameData { // behind the push constant
     address film; // FilmPixel[]
     address film_guides; // GuidePixel[]
     address counters; // uint[COUNTER_COUNT]
-    uint first_pixel, pixel_count; // this wave: pixels of the crop window, row by row
+    uint first_pixel, pixel_count; // this wave: pixels of the film, row by row
     uint samples; // per pixel in this wave: path index = sample * pixel_count + pixel
     uint first_sample;
-    uint crop_x, crop_y, crop_width;
-    uint seed;
+    uint crop_x, crop_y, crop_width, crop_height; // the film has rows of twins below these (shared/twins.h)
+    uint seed, pad0;
 };
 
 struct TracePush { // of the ray-tracing pipeline: one sample per pixel of a rectangle of the film

@@ -33,7 +33,8 @@ inline io::Estimate estimate(const render::FilmImage& image) {
     return e;
 }
 
-// Pictures whose samples are independent: each pixel's z is within 3 for 99.5 % of the pixels, and so is the means'.
+// Pictures whose samples are independent: each pixel's z is within 3 for 97.5 % of the pixels (99.7 % if errors were
+// known, not estimated), and so is the means'.
 inline void check_independent(const render::FilmImage& a, const render::FilmImage& b) {
     const auto test = io::z_test(estimate(a), estimate(b), 3, 1);
     REQUIRE(test);
@@ -43,7 +44,8 @@ inline void check_independent(const render::FilmImage& a, const render::FilmImag
         "fraction of pixels within 3: {:.4f}, worst {:.2f}, rms {:.3f}; means {:.5f} +- {:.5f} and {:.5f} +- "
         "{:.5f}, z {:.2f}",
         test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
-    CHECK(test->share_passing >= 0.995);
+    CHECK(test->share_passing >= 0.975);
+    CHECK(test->rms < 1.25);
     CHECK(std::abs(z) <= 3);
     CHECK(ma.value > 0); // a black picture agrees with anything
 }

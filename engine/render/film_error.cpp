@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace restage::render {
+namespace {
+
+constexpr std::size_t radius = 16; // of the neighbourhood [pixel]: some 34 twins
+constexpr double prior = 16;       // twins for which the whole film's ratio counts in it
+constexpr double least_ratio = 1e-3;
+// Where the spread is larger than this times that of the neighbourhood, it is by a few bright samples, and stratification
+// does not help against those.
+constexpr double outlier = 2;
+
+struct Sum {
+    double sum = 0, count = 0;
+    Sum& operator+=(const Sum& s) {
+        sum += s.sum;
+        count += s.count;
+        return *this;
+    }
+    Sum& operator-=(const Sum& s) {
+        sum -= s.sum;
+        count -= s.count;
+        return *this;
+    }
+};
+
+// Sums over a window that slides along a line of n values `stride` apart.
+void slide(const Sum* values, Sum* sums, std::size_t n, std::size_t stride) {
+    Sum window;
+    for (std::size_t i = 0; i < std::min(radius, n); ++i)
+        window += values[i * stride];
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i + radius < n) window += values[(i + radius) * stride];
+        if (i > radius) window -= values[(i - radius - 1) * stride];
+        sums[i * stride] = window;
+    }
+}
+
+// Replaces each value by the sum over its neighbourhood.
+void sum_nearby(std::vector<Sum>& values, std::size_t width, std::size_t height) {
+    std::vector<Sum> along(values.size());
+    for (std::size_t y = 0; y < height; ++y)
+        slide(&values[y * width], &along[y * width], width, 1);
+    for (std::size_t x = 0; x < width; ++x)
+        slide(&along[x], &values[x], height, width);
+}
+
+} // namespace
+
+double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+void correct_errors(FilmImage& film) {
+    const std::size_t n = film.pixels();
+    std::vector<Sum> spread(n), ratio(n);
+    for (std::size_t i = 0; i < n; ++i)
+        spread[i] = {std::sqrt(double(film.luminance_variance[i])), 1};
+    sum_nearby(spread, film.width, film.height);
+    const auto largest = [&](std::size_t i) { return std::pow(outlier * spread[i].sum / spread[i].count, 2); };
+    Sum all;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec2 twin = film.twin[i];
+        const double own = film.luminance_variance[i], its = twin.y * twin.y;
+        if (twin == glm::dvec2(0) || !(own + its > 0) || std::max(own, its) > largest(i)) continue;
+        ratio[i] = {std::pow(luminance(film.color[i]) - twin.x, 2) / (own + its), 1};
+        all += ratio[i];
+    }
+    sum_nearby(ratio, film.width, film.height);
+    const double overall = all.count > 0 ? all.sum / all.count : 1;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double variance = film.luminance_variance[i];
+        if (!(variance > 0)) continue;
+        const double nearby = std::max(least_ratio, (ratio[i].sum + prior * overall) / (ratio[i].count + prior));
+        const double less = (1 - nearby) * std::min(variance, largest(i)); // by stratification
+        film.luminance_variance[i] = float(variance - less);
+        film.std_error[i] = film.sample_error[i] * float(std::sqrt(1 - less / variance));
+    }
+}
+
+float independent_variance(const FilmImage& film, std::size_t i) {
+    const glm::vec3 corrected = film.std_error[i], independent = film.sample_error[i];
+    const float a = glm::dot(corrected, corrected), b = glm::dot(independent, independent);
+    return a > 0 && b > 0 ? film.luminance_variance[i] * (b / a) : film.luminance_variance[i];
+}
+
+double relative_error(const FilmImage& film) {
+    if (film.samples < 2) return 1e30;
+    const auto width = std::ptrdiff_t(film.width), height = std::ptrdiff_t(film.height);
+    std::vector<double> light(film.pixels());
+    std::ranges::transform(film.color, light.begin(), luminance);
+    double sum = 0;
+    for (std::ptrdiff_t y = 0; y < height; ++y)
+        for (std::ptrdiff_t x = 0; x < width; ++x) {
+            // A pixel brighter than all its neighbours is probably so by its error.
+            double brightest = film.pixels() > 1 ? 0 : light[0];
+            for (std::ptrdiff_t v = std::max<std::ptrdiff_t>(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+                for (std::ptrdiff_t u = std::max<std::ptrdiff_t>(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+                    if (u != x || v != y) brightest = std::max(brightest, light[std::size_t(v * width + u)]);
+            const auto i = std::size_t(y * width + x);
+            sum += film.luminance_variance[i] / std::pow(std::min(light[i], brightest) + 0.01, 2);
+        }
+    return std::sqrt(sum / double(film.pixels()));
+}
+
+} // namespace restage::render
