@@ -68,19 +68,28 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--russian-roulette", o.roulette,
                     "End paths that carry little light early, without bias: on or off (default: the scene's)")
         ->check(CLI::IsMember({"on", "off"}));
+    auto* clamp_direct =
+        command
+            .add_option("--clamp-direct", o.clamp_direct,
+                        "Largest contribution of directly visible or direct light (biased; 0 = off; default: the "
+                        "scene's)")
+            ->check(CLI::NonNegativeNumber);
+    auto* clamp_indirect =
+        command
+            .add_option("--clamp-indirect", o.clamp_indirect,
+                        "Largest contribution after a bounce (biased; 0 = off; default: the scene's)")
+            ->check(CLI::NonNegativeNumber);
+    auto* ray_epsilon =
+        command
+            .add_option("--ray-epsilon", o.ray_epsilon,
+                        "Offset of ray origins [scene units] (0 = by error bounds, better; default: the scene's)")
+            ->check(CLI::NonNegativeNumber);
     command
-        .add_option("--clamp-direct", o.clamp_direct,
-                    "Largest contribution of directly visible or direct light (biased; 0 = off; default: the "
-                    "scene's)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        .add_option("--clamp-indirect", o.clamp_indirect,
-                    "Largest contribution after a bounce (biased; 0 = off; default: the scene's)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        .add_option("--ray-epsilon", o.ray_epsilon,
-                    "Offset of ray origins [scene units] (0 = by error bounds, better; default: the scene's)")
-        ->check(CLI::NonNegativeNumber);
+        .add_flag("--reference", o.reference,
+                  "For a reference picture: turn off everything biased, whatever the scene says")
+        ->excludes(clamp_direct)
+        ->excludes(clamp_indirect)
+        ->excludes(ray_epsilon);
     command.add_option("--strategy", o.strategy, "Light sampling strategy: mis, light or bsdf (for comparisons)")
         ->check(CLI::IsMember({"mis", "light", "bsdf"}))
         ->capture_default_str();
@@ -192,6 +201,7 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
     settings.clamp_direct = o.clamp_direct.value_or(settings.clamp_direct);
     settings.clamp_indirect = o.clamp_indirect.value_or(settings.clamp_indirect);
     settings.ray_epsilon = o.ray_epsilon.value_or(settings.ray_epsilon);
+    if (o.reference) settings = scene::for_reference(std::move(settings));
     if (!(settings == scene.settings.value)) scene.settings = {settings, ++scene.clock};
     return {};
 }

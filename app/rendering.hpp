@@ -30,6 +30,7 @@ struct RenderOptions {
     std::string roulette; // "", on, off
     std::optional<float> clamp_direct, clamp_indirect; // biased; none = the scene's
     std::optional<float> ray_epsilon; // 0 = error bounds
+    bool reference = false; // nothing biased
     std::string camera; // its name or number; "" = the active one
     bool studio = false; // add studio light
 };

@@ -218,6 +218,11 @@ struct Settings {
     Origin origin; // integrator, sampler, options
     bool operator==(const Settings&) const = default;
 };
+// Without what is biased: limits of contributions, and a ray offset other than by error bounds.
+inline Settings for_reference(Settings s) {
+    s.clamp_direct = s.clamp_indirect = s.ray_epsilon = 0;
+    return s;
+}
 
 struct Scene {
     Table<Mesh> meshes;

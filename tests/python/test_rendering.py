@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rendering through the package: arrays, targets, the GIL, cancellation, denoising, merging, and the program's picture."""
+import json
 import os
 import pickle
 import signal
@@ -80,6 +81,13 @@ def test_the_program_renders_the_same_picture(cornell, scenes, program, tmp_path
     assert np.allclose(read_pfm(out), mine.color, rtol=1e-5, atol=1e-6)
     mine.save(tmp_path / "mine.pfm")
     assert np.array_equal(read_pfm(tmp_path / "mine.pfm"), mine.color)
+
+
+def test_a_reference_has_no_limits_of_the_scene(scenes, tmp_path):
+    (tmp_path / "dim.restage").write_text(json.dumps({"restage": 1, "base": {"file": str(scenes / "cornell/cornell.pbrt")}, "settings": {"clamp_indirect": 0.001}}))
+    dim = restage.open(tmp_path / "dim.restage")
+    limited, whole = (dim.render(size=(16, 16), samples=4, reference=r).color.mean() for r in (False, True))
+    assert limited < 0.95 * whole
 
 
 def test_exposure_scales_colour_and_error_alike(cornell):

@@ -451,8 +451,11 @@ def test_inputs_and_non_files_are_never_overwritten(tmp_path):
 def test_a_clamp_of_the_scene_is_switched_off_by_0(tmp_path):
     (tmp_path / "dim.restage").write_text(json.dumps({"restage": 1, "base": {"file": str(CORNELL)}, "settings": {"clamp_indirect": 0.001}}))
     means = []
-    for scene, extra in ((CORNELL, []), (tmp_path / "dim.restage", []), (tmp_path / "dim.restage", ["--clamp-indirect", 0])):
+    for scene, extra in ((CORNELL, []), (tmp_path / "dim.restage", []), (tmp_path / "dim.restage", ["--clamp-indirect", 0]),
+                         (tmp_path / "dim.restage", ["--reference"])):
         done = restage("render", scene, "-o", tmp_path / "x.exr", "--size", "16x12", "--spp", 4, *extra)
         assert done.returncode == 0, done.stderr
         means.append(exr_file.read(tmp_path / "x.exr")["G"].mean())
-    assert means[1] < 0.95 * means[0] and means[2] == pytest.approx(means[0], rel=1e-5)
+    assert means[1] < 0.95 * means[0] and means[2:] == pytest.approx([means[0]] * 2, rel=1e-5)
+    done = restage("render", CORNELL, "-o", tmp_path / "x.exr", "--reference", "--clamp-direct", 1)
+    assert done.returncode == 2 and "--reference excludes --clamp-direct" in done.stderr

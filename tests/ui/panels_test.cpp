@@ -158,6 +158,9 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
     h.play("rendering", [&](ImGuiTestContext* ctx) {
         h.click(ctx, "scene.render");
         drags_are_steps(h, ctx, {"render.samples", "render.depth", "render.clamp_direct", "render.clamp_indirect"});
+        IM_CHECK(h.scene().settings.value.clamp_direct > 0);
+        h.click(ctx, "render.reference");
+        IM_CHECK(h.scene().settings.value.clamp_direct == 0 && h.scene().settings.value.clamp_indirect == 0);
         const bool roulette = h.scene().settings.value.russian_roulette;
         h.click(ctx, "render.roulette");
         IM_CHECK(h.scene().settings.value.russian_roulette != roulette);

@@ -59,6 +59,14 @@ void scene_rows(EditContext& e) {
     changed |= ImGui::DragFloat("##epsilon", &settings.ray_epsilon, drag_speed(settings.ray_epsilon, 1e-6f), 0, 1,
                                 settings.ray_epsilon > 0 ? "%.2g units" : "Automatic", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.epsilon");
+    form_row("Reference", "Turns off everything biased: both limits, and the ray offset");
+    ImGui::BeginDisabled(scene::for_reference(settings) == settings);
+    if (ImGui::Button("Turn off what is biased")) {
+        settings = scene::for_reference(std::move(settings));
+        changed = true;
+    }
+    ImGui::EndDisabled();
+    e.mark("render.reference");
     settings.samples = std::uint32_t(samples);
     settings.max_depth = std::uint32_t(depth);
     if (changed)
