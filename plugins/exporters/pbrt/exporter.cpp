@@ -7,40 +7,6 @@
 
 namespace restage::pbrt_out {
 
-const RestageValue* Values::find(std::string_view id) const {
-    for (std::uint32_t i = 0; i < count_; ++i)
-        if (const RestageValue& v = RESTAGE_AT(RestageValue, values_, i); v.id == id) return &v;
-    return nullptr;
-}
-
-int Values::integer(std::string_view id, int otherwise) const {
-    const RestageValue* v = find(id);
-    return v ? v->i : otherwise;
-}
-
-float Values::number(std::string_view id, float otherwise) const {
-    const RestageValue* v = find(id);
-    if (!v) return otherwise;
-    return v->type == RESTAGE_INT || v->type == RESTAGE_BOOL ? static_cast<float>(v->i) : v->v[0];
-}
-
-std::string Values::choice(std::string_view id, const char* otherwise) const {
-    const RestageValue* v = find(id);
-    return v && v->text ? v->text : otherwise;
-}
-
-std::array<float, 3> Values::color(std::string_view id, std::array<float, 3> otherwise) const {
-    const RestageValue* v = find(id);
-    if (!v) return otherwise;
-    if (v->type == RESTAGE_FLOAT) return {v->v[0], v->v[0], v->v[0]};
-    return {v->v[0], v->v[1], v->v[2]};
-}
-
-RestageHandle Values::ref(std::string_view id) const {
-    const RestageValue* v = find(id);
-    return v ? v->ref : 0;
-}
-
 void Exporter::report(RestageFate fate, const std::string& what, const std::string& note) {
     lossy_ = lossy_ || fate != RESTAGE_KEPT;
     if (reported_.insert(std::to_string(fate) + what + '\n' + note).second)
@@ -112,7 +78,7 @@ std::string Exporter::finished(Params& params, const std::string& what) {
     params.map_strings([&](const std::string& text) {
         const std::filesystem::path path(text);
         std::error_code code;
-        return path.is_absolute() && std::filesystem::is_regular_file(path, code) ? place_file(text) : text;
+        return path.is_absolute() && std::filesystem::is_regular_file(path, code) ? places_.of(text) : text;
     });
     params.retype(v3());
     return params.text();
@@ -178,41 +144,6 @@ bool Exporter::run(const std::string& scene_name) {
     if (!go_on(0.9f, "writing")) return false;
     out_.write(scene_name, text_);
     return true;
-}
-
-bool is_identity(const double m[16]) {
-    for (int i = 0; i < 16; ++i)
-        if (m[i] != (i % 5 == 0 ? 1.0 : 0.0)) return false;
-    return true;
-}
-
-std::array<double, 16> multiply(const double a[16], const double b[16]) {
-    std::array<double, 16> out{};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row)
-            for (std::size_t k = 0; k < 4; ++k)
-                out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-    return out;
-}
-
-// Of an affine matrix, through the adjugate of its linear part.
-std::optional<std::array<double, 16>> inverse(const double m[16]) {
-    const auto at = [&](int row, int column) { return m[4 * column + row]; };
-    const auto cofactor = [&](int r, int c) {
-        const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-        return at(r1, c1) * at(r2, c2) - at(r1, c2) * at(r2, c1);
-    };
-    const double determinant = at(0, 0) * cofactor(0, 0) + at(0, 1) * cofactor(0, 1) + at(0, 2) * cofactor(0, 2);
-    if (determinant == 0 || !std::isfinite(1 / determinant)) return std::nullopt;
-    std::array<double, 16> out{};
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-            out[static_cast<std::size_t>(4 * column + row)] = cofactor(column, row) / determinant;
-    for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t k = 0; k < 3; ++k)
-            out[12 + row] -= out[4 * k + row] * m[12 + k];
-    out[15] = 1;
-    return out;
 }
 
 } // namespace restage::pbrt_out

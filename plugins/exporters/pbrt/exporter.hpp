@@ -3,7 +3,11 @@
 // (write_*.cpp). Same scene, same bytes: nothing here depends on addresses, time or the order of hash tables.
 #pragma once
 
-#include "output.hpp"
+#include "common/matrix.hpp"
+#include "common/output.hpp"
+#include "common/picture.hpp"
+#include "common/places.hpp"
+#include "common/values.hpp"
 #include "text.hpp"
 
 #include <restage/scene_io.h>
@@ -15,30 +19,14 @@
 
 namespace restage::pbrt_out {
 
+using namespace exporters;
+
 enum class Version { v3, v4 };
-enum class Files { copy, relative, absolute };
 
 struct Options {
     Version version = Version::v4;
     Files textures = Files::copy;
     bool write_meshes = true; // false: refer to a mesh's original PLY, if it still exists
-};
-
-// The values of a material or texture, by id, with defaults from the plugins' tables for unset ones.
-class Values {
-  public:
-    Values(const RestageValue* values, std::uint32_t count) : values_(values), count_(count) {}
-    const RestageValue* find(std::string_view id) const;
-    float number(std::string_view id, float otherwise) const;
-    int integer(std::string_view id, int otherwise) const; // a boolean, too
-    bool boolean(std::string_view id, bool otherwise) const { return integer(id, otherwise) != 0; }
-    std::string choice(std::string_view id, const char* otherwise) const;
-    std::array<float, 3> color(std::string_view id, std::array<float, 3> otherwise) const;
-    RestageHandle ref(std::string_view id) const;
-
-  private:
-    const RestageValue* values_;
-    std::uint32_t count_;
 };
 
 // The id of the line that keeps a whole light with a picture: its value, then the directive.
@@ -55,13 +43,6 @@ struct Kept {
 // A kept line of one version in the other's syntax; "" = it affects sampling only, so nothing is lost; nullopt = the
 // other has no equivalent.
 std::optional<std::string> in_other_words(const std::string& line, bool to_v3);
-
-struct OwnPicture { // made by the export; RGB, row 0 is the top
-    std::uint32_t width = 0, height = 0;
-    std::vector<float> pixels;
-};
-// From the other version's mapping of all directions: equirectangular is pbrt-v3's, octahedral v4's.
-OwnPicture resampled(const RestageImage&, bool to_octahedral, std::uint32_t least_side);
 
 class Exporter {
   public:
@@ -99,7 +80,6 @@ class Exporter {
 
     // write_textures.cpp
     std::string image_file(RestageHandle image);
-    std::string place_file(const std::string& path); // its name in the scene file; copied if requested
     // Writes it and its dependencies first, as a scalar or a colour (default: as declared); its name, "" =
     // impossible.
     std::string texture(RestageHandle, std::optional<bool> as_float = {});
@@ -110,7 +90,7 @@ class Exporter {
     void put_mapping(Params&, const Values&, const std::string& what);
     bool put_procedural(Params&, const RestageTexture&, const Values&, const std::string& what, std::string& type);
     void put_scale_texture(Params&, const RestageTexture&, const Values&, const std::string& what);
-    std::array<float, 3> average(RestageHandle texture, int depth = 0); // of a texture, for approximations
+    std::array<float, 3> average(RestageHandle texture) const { return exporters::average(in_, texture); }
 
     // write_materials*.cpp
     std::string material(RestageHandle);
@@ -165,11 +145,11 @@ class Exporter {
     const RestageSceneReader1& in_;
     const Options options_;
     Output& out_;
+    Places places_{out_, options_.textures};
     std::string text_;
     std::set<std::string> reported_, told_missing_;
     bool lossy_ = false; // something was approximated or dropped since it was set to false
     std::map<std::string, std::set<std::string>> names_; // by kind
-    std::map<std::string, std::string> files_; // by path
     std::map<RestageHandle, std::string> materials_, media_, meshes_, images_;
     std::map<std::pair<RestageHandle, bool>, std::string> textures_; // by kind: whether it is a scalar
     std::set<std::pair<RestageHandle, bool>> writing_; // begun
@@ -182,11 +162,5 @@ class Exporter {
     std::map<std::string, std::vector<RestageHandle>> objects_; // members, of the first group
     std::map<RestageHandle, std::string> object_of_instance_; // ungrouped instances that share everything
 };
-
-bool is_identity(const double m[16]);
-std::optional<std::array<double, 16>> inverse(const double m[16]);
-std::array<double, 16> multiply(const double a[16], const double b[16]);
-std::string ply_bytes(const RestageMesh&);
-std::string pfm_bytes(const RestageImage&); // rows from the bottom, little-endian; alpha is left out
 
 } // namespace restage::pbrt_out

@@ -18,8 +18,7 @@ Options read_options(const RestageValue* values, std::uint32_t count) {
     const Values given(values, count);
     Options out;
     out.version = given.choice("version", "v4") == "v3" ? Version::v3 : Version::v4;
-    const std::string textures = given.choice("textures", "copy");
-    out.textures = textures == "relative" ? Files::relative : textures == "absolute" ? Files::absolute : Files::copy;
+    out.textures = files_option(given.choice("textures", "copy"));
     out.write_meshes = given.choice("meshes", "write") != "reference";
     return out;
 }

@@ -9,13 +9,6 @@ namespace restage::pbrt_out {
 
 namespace {
 
-template <class T>
-std::string shortest(T value) {
-    char text[64];
-    const auto [end, code] = std::to_chars(text, text + sizeof text, value);
-    return std::string(text, end);
-}
-
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 std::size_t skip_space(std::string_view s, std::size_t i) {
@@ -45,9 +38,6 @@ std::string unquote(std::string_view text) { // of quote()
 }
 
 } // namespace
-
-std::string number(float value) { return shortest(value); }
-std::string number(double value) { return shortest(value); }
 
 std::optional<double> read_number(std::string_view& text) {
     text.remove_prefix(skip_space(text, 0));
@@ -81,25 +71,6 @@ std::string quote(std::string_view text) {
                 out += c;
         }
     return out + '"';
-}
-
-std::string plain_name(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (static_cast<unsigned char>(c) < 32 || c == '"' || c == '/' || c == '\\' || c == ':' || c == '*' ||
-            c == '?' || c == '<' || c == '>' || c == '|')
-            c = '_';
-    return out;
-}
-
-std::vector<std::string> lines(std::string_view text) {
-    std::vector<std::string> out;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        if (end > 0) out.emplace_back(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return out;
 }
 
 Params& Params::add(std::string_view type, std::string_view name, std::string_view value) {

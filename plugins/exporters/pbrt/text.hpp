@@ -3,6 +3,8 @@
 // lines that were kept verbatim.
 #pragma once
 
+#include "common/text.hpp"
+
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -13,12 +15,10 @@
 
 namespace restage::pbrt_out {
 
-std::string number(float);
-std::string number(double);
+using namespace exporters;
+
 std::optional<double> read_number(std::string_view& text); // strips it, and space before it, from the start of the text
 std::string quote(std::string_view); // with pbrt's escapes
-std::string plain_name(std::string_view); // fit for a comment and a file: no quotes, slashes or control characters
-std::vector<std::string> lines(std::string_view text); // without empty ones
 
 // A list of parameters as text: `"float radius" [ 1 ]` each.
 class Params {

@@ -8,19 +8,6 @@
 
 namespace restage::pbrt_out {
 
-namespace {
-
-// pbrt-v4 TrowbridgeReitzDistribution::RoughnessToAlpha.
-double alpha_v4(double roughness) { return std::sqrt(roughness); }
-
-// pbrt-v3 TrowbridgeReitzDistribution::RoughnessToAlpha.
-double alpha_v3(double roughness) {
-    const double x = std::log(std::max(roughness, 1e-3));
-    return 1.62142 + 0.819955 * x + 0.1734 * x * x + 0.0171201 * x * x * x + 0.000640711 * x * x * x * x;
-}
-
-} // namespace
-
 void Exporter::put_float(Params& params, const Values& values, const char* id, const char* name, float otherwise) {
     put_argument(params, values, id, name, true, otherwise);
 }
@@ -56,7 +43,7 @@ void Exporter::put_roughness(Params& params, const Values& values, const std::st
             return;
         }
         const double roughness = values.number(id, otherwise);
-        const double alpha = smooth ? 0 : remap == "v3" ? alpha_v3(roughness) : alpha_v4(roughness);
+        const double alpha = smooth ? 0 : alpha_of_roughness(roughness, remap);
         params.add_float(name, static_cast<float>(alpha));
     };
     put(u_id, u_name);

@@ -290,14 +290,11 @@ std::string Exporter::ply_file(RestageHandle handle, const RestageMesh& mesh) {
         if (const std::string inside = out_.inside(source); !inside.empty())
             return file = inside; // already next to the scene
         if (!options_.write_meshes) {
-            file =
-                options_.textures == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
+            file = places_.how() == Files::absolute ? "" : source.lexically_relative(out_.folder()).generic_string();
             return file = file.empty() ? source.generic_string() : file;
         }
     }
-    file = out_.unique_file("models", plain_name(mesh.name), ".ply");
-    out_.write(file, ply_bytes(mesh));
-    return file;
+    return file = places_.of_mesh(mesh);
 }
 
 // Alpha differs between the versions: v3's is a mask, for triangles only, and makes parts of lamps invisible; v4's

@@ -38,45 +38,14 @@ std::optional<std::array<double, 16>> transform_of(const std::string& line) {
 
 } // namespace
 
-std::string pfm_bytes(const RestageImage& image) {
-    const std::uint32_t channels = image.channels == 1 ? 1 : 3;
-    std::string out =
-        (channels == 1 ? "Pf\n" : "PF\n") + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1\n";
-    for (std::uint32_t row = image.height; row-- > 0;)
-        for (std::uint32_t x = 0; x < image.width; ++x) {
-            const float* pixel = image.pixels + (std::size_t{row} * image.width + x) * image.channels;
-            out.append(reinterpret_cast<const char*>(pixel), channels * sizeof(float));
-        }
-    return out;
-}
-
-std::string Exporter::place_file(const std::string& path) {
-    std::string& file = files_[path];
-    if (!file.empty()) return file;
-    const fs::path source(path);
-    if (options_.textures == Files::absolute) return file = source.generic_string();
-    if (const std::string inside = out_.inside(source); !inside.empty()) return file = inside; // next to the scene
-    if (options_.textures == Files::relative) {
-        file = source.lexically_relative(out_.folder()).generic_string();
-        return file = file.empty() ? source.generic_string() : file; // on another drive
-    }
-    file = out_.unique_file("textures", plain_name(source.stem().string()), source.extension().string());
-    out_.copy(source, file);
-    return file;
-}
-
 std::string Exporter::image_file(RestageHandle handle) {
     if (const auto it = images_.find(handle); it != images_.end()) return it->second;
     RestageImage image{};
     if (!in_.image(in_.ctx, handle, &image)) return "";
     std::string& file = images_[handle];
     std::error_code code;
-    if (*image.path && fs::exists(image.path, code)) return file = place_file(image.path);
-    if (image.pixels) {
-        file = out_.unique_file("textures", plain_name(fs::path(image.name).stem().string()), ".pfm");
-        out_.write(file, pfm_bytes(image));
-        return file;
-    }
+    if (*image.path && fs::exists(image.path, code)) return file = places_.of(image.path);
+    if (image.pixels) return file = places_.of_pixels(image);
     dropped(std::string("image \"") + image.name + "\"",
             std::string("its file is missing; its name is written unchanged: ") + image.path);
     Params as_written; // the importer's stand-in for a missing file
@@ -168,40 +137,6 @@ void Exporter::put_scale_texture(Params& params, const RestageTexture& t, const 
         params.add_float("scale",
                          c[0] == c[1] && c[1] == c[2] ? c[0] : 0.212639f * c[0] + 0.715169f * c[1] + 0.072192f * c[2]);
     }
-}
-
-std::array<float, 3> Exporter::average(RestageHandle handle, int depth) {
-    RestageTexture t{};
-    std::array<float, 3> grey{0.5f, 0.5f, 0.5f};
-    if (depth > 16 || !in_.texture(in_.ctx, handle, &t)) return grey;
-    const Values values(t.values, t.value_count);
-    const auto part = [&](const char* id, float otherwise) {
-        return values.ref(id) ? average(values.ref(id), depth + 1)
-                              : values.color(id, {otherwise, otherwise, otherwise});
-    };
-    const std::string type = t.type;
-    if (type == "constant") return part("value", 1);
-    if (type == "scale") {
-        const auto a = part("tex", 1), b = part("scale", 1);
-        return {a[0] * b[0], a[1] * b[1], a[2] * b[2]};
-    }
-    if (type == "mix" || type == "checkerboard" || type == "checkerboard3d") {
-        const bool mix = type == "mix";
-        const auto a = part("tex1", mix ? 0.f : 1.f), b = part("tex2", mix ? 1.f : 0.f);
-        const float w = mix && !values.ref("amount") ? values.number("amount", 0.5f) : 0.5f;
-        return {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), a[2] + w * (b[2] - a[2])};
-    }
-    if (type == "bilerp") {
-        std::array<float, 3> sum{};
-        for (const auto& corner : {part("v00", 0), part("v01", 1), part("v10", 0), part("v11", 1)})
-            for (std::size_t k = 0; k < 3; ++k)
-                sum[k] += corner[k] / 4;
-        return sum;
-    }
-    if (const RestageValue* known = values.find("average")) return {known->v[0], known->v[1], known->v[2]};
-    if (type == "dots") return part("inside", 1);
-    if (type == "marble") return {0.52f, 0.52f, 0.56f}; // of its nine colours
-    return grey; // an imagemap's mean is unknown here
 }
 
 std::string Exporter::placing(const Values& values, const std::string& imported, const std::string& what) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "output.hpp"
+#include "common/output.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 #include <unistd.h>
 #endif
 
-namespace restage::pbrt_out {
+namespace restage::exporters {
 
 namespace fs = std::filesystem;
 
@@ -126,4 +126,4 @@ void Output::commit() {
     made_folders_.clear();
 }
 
-} // namespace restage::pbrt_out
+} // namespace restage::exporters

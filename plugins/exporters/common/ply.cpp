@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as binary PLY with the property names pbrt reads: x y z, nx ny nz, u v, vertex_indices.
-#include "exporter.hpp"
+#include "common/ply.hpp"
 
 #include <bit>
 
-namespace restage::pbrt_out {
+namespace restage::exporters {
 
 static_assert(std::endian::native == std::endian::little, "the bytes are written as they are in memory");
 
@@ -30,4 +29,4 @@ std::string ply_bytes(const RestageMesh& mesh) {
     return out;
 }
 
-} // namespace restage::pbrt_out
+} // namespace restage::exporters

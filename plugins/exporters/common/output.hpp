@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace restage::pbrt_out {
+namespace restage::exporters {
 
 struct ExportError : std::runtime_error { // file and sentence, for error() of the reader
     ExportError(std::string f, const std::string& message) : std::runtime_error(message), file(std::move(f)) {}
@@ -46,4 +46,4 @@ class Output {
     std::set<std::string> taken_; // in lower case: file systems may ignore case
 };
 
-} // namespace restage::pbrt_out
+} // namespace restage::exporters
