@@ -11,6 +11,25 @@
 
 namespace restage::render {
 
+namespace {
+
+struct Moments { // means over a pixel's samples
+    glm::dvec3 color, squares;
+    double squared_luminance;
+};
+Moments moments(const shared::FilmPixel& p) {
+    const double count = p.count;
+    return {(glm::dvec3(p.sum) - glm::dvec3(p.excess)) / count,
+            (glm::dvec3(p.sum_sq) - glm::dvec3(p.excess_sq)) / count,
+            (double(p.sum_sq_luminance) - double(p.excess_sq_luminance)) / count};
+}
+// Of the mean, if samples are independent.
+double luminance_variance(const Moments& m, double count) {
+    return count > 1 ? std::max(0.0, (m.squared_luminance - std::pow(luminance(m.color), 2)) / (count - 1)) : 0;
+}
+
+} // namespace
+
 Result<Film> Film::create(gpu::Device& device, std::uint32_t width, std::uint32_t height) {
     Film film;
     film.width_ = width;
@@ -48,12 +67,6 @@ void FilmImage::expose(float exposure) {
     });
 }
 
-// Of independent samples: the variance of their mean.
-static double luminance_variance(const shared::FilmPixel& p) {
-    const double count = p.count, mean = luminance(p.sum) / count;
-    return count > 1 ? std::max(0.0, (p.sum_sq_luminance / count - mean * mean) / (count - 1)) : 0;
-}
-
 std::uint32_t Film::rows() const { return height_ + (height_ + TWIN_ROWS - 1) / TWIN_ROWS; }
 
 FilmImage Film::read() const {
@@ -64,22 +77,22 @@ FilmImage Film::read() const {
     for (std::size_t i = 0; i < n; ++i) {
         const auto& p = pixels[i];
         if (p.count > 0) {
-            const double count = p.count;
-            const glm::dvec3 mean = glm::dvec3(p.sum) / count;
-            image.color[i] = mean;
+            const Moments m = moments(p);
+            image.color[i] = m.color;
             if (p.count > 1) {
-                const glm::dvec3 variance = (glm::dvec3(p.sum_sq) / count - mean * mean) / (count - 1);
+                const glm::dvec3 variance = (m.squares - m.color * m.color) / (double(p.count) - 1);
                 image.sample_error[i] = glm::sqrt(glm::max(variance, glm::dvec3(0)));
-                image.luminance_variance[i] = float(luminance_variance(p));
+                image.luminance_variance[i] = float(luminance_variance(m, p.count));
             }
         }
     }
     for (std::uint32_t row = 0; row < rows() - height_; ++row)
         for (std::uint32_t x = 0; x < width_; ++x) {
             const auto& p = pixels[std::size_t(height_ + row) * width_ + x];
-            if (p.count > 0)
-                image.twin[std::size_t(shared::twin_of(x, row, height_)) * width_ + x] = {
-                    luminance(p.sum) / p.count, std::sqrt(luminance_variance(p))};
+            if (p.count <= 0) continue;
+            const Moments m = moments(p);
+            image.twin[std::size_t(shared::twin_of(x, row, height_)) * width_ + x] = {
+                luminance(m.color), std::sqrt(luminance_variance(m, p.count))};
         }
     correct_errors(image);
     each_film_layer([&](const auto& layer) {

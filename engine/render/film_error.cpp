@@ -51,7 +51,7 @@ void sum_nearby(std::vector<Sum>& values, std::size_t width, std::size_t height)
 
 } // namespace
 
-double luminance(const glm::vec3& c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminance(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 void correct_errors(FilmImage& film) {
     const std::size_t n = film.pixels();

@@ -9,7 +9,7 @@
 
 namespace restage::render {
 
-double luminance(const glm::vec3& linear_srgb);
+double luminance(const glm::dvec3& linear_srgb);
 
 // Sets std_error and luminance_variance from sample_error, twin, and luminance_variance, which is as if samples were
 // independent.

@@ -18,13 +18,30 @@ const float INFINITE = 1e30;
 // Larger values would overflow the sums of squares. A radiance of 1e16 means a broken file.
 const float FILM_LARGEST = 1e16;
 
+// Compensated sums: `excess` is what rounding has added so far. Without it the mean of 2^20 equal samples is off by 1 %.
+// Kahan 1965, "Pracniques: Further Remarks on Reducing Truncation Errors".
+void add_compensated(inout vec3 sum, inout vec3 excess, vec3 x) {
+    precise vec3 y = x - excess;
+    precise vec3 total = sum + y;
+    precise vec3 rounded = (total - sum) - y;
+    sum = total;
+    excess = rounded;
+}
+void add_compensated(inout float sum, inout float excess, float x) {
+    precise float y = x - excess;
+    precise float total = sum + y;
+    precise float rounded = (total - sum) - y;
+    sum = total;
+    excess = rounded;
+}
+
 // A sample that is non-finite or too large counts as black and returns false: nothing invalid reaches the film.
 bool film_add(inout FilmPixel f, vec3 c) {
     bool fits = finite(c) && all(lessThanEqual(abs(c), vec3(FILM_LARGEST)));
     if (!fits) c = vec3(0);
-    f.sum += c;
-    f.sum_sq += c * c;
-    f.sum_sq_luminance += sqr(luminance(c));
+    add_compensated(f.sum, f.excess, c);
+    add_compensated(f.sum_sq, f.excess_sq, c * c);
+    add_compensated(f.sum_sq_luminance, f.excess_sq_luminance, sqr(luminance(c)));
     f.count += 1.0;
     return fits;
 }

@@ -68,11 +68,13 @@ struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the fi
     uint pad0;
 };
 
-struct FilmPixel { // 32 bytes
+struct FilmPixel { // 60 bytes; what the sums have in excess is subtracted when they are read
     vec3 sum; // of radiance
     float count;
     vec3 sum_sq; // of each channel
     float sum_sq_luminance;
+    vec3 excess, excess_sq;
+    float excess_sq_luminance;
 };
 struct GuidePixel {
     vec3 albedo;
