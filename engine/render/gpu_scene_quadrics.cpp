@@ -41,8 +41,10 @@ glm::mat4x3 GpuScene::placement(std::uint32_t id) const {
     glm::dvec3 away(0);
     for (int i = 0; i < 3; ++i)
         away += glm::abs(back[i] * at[i]);
-    const glm::dvec3 half = glm::dvec3(q.radius, q.radius, (q.z_max - q.z_min) / 2) +
-                            1e-5 * (q.radius + std::max(std::abs(q.z_min), std::abs(q.z_max))) + 2e-6 * away;
+    glm::dvec3 half = glm::dvec3(q.radius, q.radius, (q.z_max - q.z_min) / 2) +
+                      1e-5 * (q.radius + std::max(std::abs(q.z_min), std::abs(q.z_max))) + 2e-6 * away;
+    for (int i = 0; i < 3; ++i) // rays are transformed to the box's space, so its inverse must be moderate
+        half[i] = std::max(half[i], 1e-9 / glm::length(m[i]));
     const glm::dvec3 place = m * centre + at;
     return {glm::vec3(m[0] * half.x), glm::vec3(m[1] * half.y), glm::vec3(m[2] * half.z), glm::vec3(place)};
 }

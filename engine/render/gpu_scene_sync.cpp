@@ -346,12 +346,12 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
     return instances_.flush(*device_);
 }
 
-// Even what cannot be hit (alpha 0) may emit.
+// Even what cannot be hit (alpha 0) may emit; but not what rays cannot be transformed to.
 std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instance> id) const {
     const auto* in = scene.instances.find(id);
     const auto& instance = instances_[id.value];
     const auto flags = instance.flags;
-    if (!in || in->hidden || !mesh(in->mesh)) return std::nullopt;
+    if (!in || in->hidden || flat_[id.value] || !mesh(in->mesh)) return std::nullopt;
     if (!(flags & INSTANCE_EMITS) || (flags & INSTANCE_HAS_GAPS)) return std::nullopt;
     const bool alpha = (flags & INSTANCE_HAS_ALPHA) != 0, unseen = (flags & INSTANCE_EMITS_UNSEEN) != 0;
     if (alpha && !unseen && !instance.alpha_texture && !(instance.alpha > 0)) return std::nullopt;
