@@ -12,9 +12,12 @@ const float EPS = 5.9604645e-8; // 2^-24, half an ulp at 1
 //   p0, e1, e2: the triangle in object space; p: the point there; w: in world space
 //   m: object to world; n: unit world normal; nw: transposed inverse of m's linear part (rows of the inverse)
 float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, vec3 n) {
-    // Interpolation: 3 roundings on the edges' extent, 1 on the sum with p0.
     vec3 extent = abs(e1) + abs(e2);
-    vec3 object_error = EPS * abs(p0) + 3.0 * EPS * max(extent.x, max(extent.y, extent.z));
+    // The intersector's plane: 4 roundings of each component of the edges' cross product tilt it about p0; but for slivers
+    // this is no more than 3 of the edges. Nothing, if the triangle lies along two axes.
+    vec3 products = abs(e1.yzx * e2.zxy) + abs(e1.zxy * e2.yzx);
+    float tilt = 4.0 * dot(abs(p - p0), products) / max(length(cross(e1, e2)), 1e-37);
+    tilt = min(tilt, 3.0 * max(extent.x, max(extent.y, extent.z)));
     // To world: gamma(3) of the products, 2 eps of the translation.
     mat3 lin = mat3(m[0], m[1], m[2]);
     mat3 abs_lin = mat3(abs(m[0]), abs(m[1]), abs(m[2]));
@@ -22,9 +25,12 @@ float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, v
     // Back to object space, as the intersector does for the origin: |inv| * |w| and |inv * t|, gamma(3) of the products
     // and as much again for the entries of its own inverse, computed in floats.
     mat3 abs_nw = mat3(abs(nw[0]), abs(nw[1]), abs(nw[2]));
-    object_error += 6.0 * EPS * ((abs(w) + abs(m[3])) * abs_nw); // v * M = transpose(M) * v
-    // Both bounds, projected onto n. An object-space error e moves the point by lin*e.
-    return dot(abs(n), world_error + abs_lin * object_error);
+    vec3 object_error = EPS * abs(p0) + 6.0 * EPS * ((abs(w) + abs(m[3])) * abs_nw); // v * M = transpose(M) * v
+    // All bounds, along n. An object-space error e moves the point by lin*e, hence along n by dot(n*lin, e), and a plane
+    // by |n*lin| times its move along its normal. Interpolation: 3 roundings on the edges' extent, 1 on the sum with p0.
+    vec3 along = abs(n * lin);
+    float edges = EPS * max(3.0 * dot(along, extent), tilt * length(along));
+    return dot(abs(n), world_error) + dot(along, object_error) + edges;
 }
 
 // pushes p off the plane, to the side of d, and one ulp further so that rounding of the sum cannot undo it

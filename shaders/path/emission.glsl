@@ -43,7 +43,7 @@ vec3 surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, 
 Surface surface_at(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, float t, StepRay ray) {
     if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
         return quadric_surface(scene, inst, material, bary, ray.origin, ray.direction, t);
-    return make_surface(scene, inst, material, prim, bary, -ray.direction);
+    return make_surface(scene, inst, material, prim, bary, ray.origin, ray.direction, t);
 }
 
 #endif

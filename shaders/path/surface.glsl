@@ -113,7 +113,19 @@ Surface quadric_surface(SceneData scene, InstanceData inst, MaterialData materia
     return s;
 }
 
-Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, vec3 wo) {
+// Barycentrics place a hit to some ulps of the triangle's edges. If these are much longer than the ray, the ray places it
+// better within the plane: else a hit near the edge of a room with walls of 1e4 times its size may lie behind the next wall.
+vec3 refined_hit(InstanceData inst, vec3 e1, vec3 e2, vec3 p, vec3 ng, vec3 origin, vec3 direction, float t) {
+    mat3 lin = linear_part(inst);
+    vec3 size = mat3(abs(lin[0]), abs(lin[1]), abs(lin[2])) * (abs(e1) + abs(e2));
+    vec3 on_ray = origin + t * direction;
+    vec3 q = on_ray - ng * dot(ng, on_ray - p);
+    return max_component(size) > 16.0 * (max_component(abs(origin)) + t) ? q : p;
+}
+
+// For a triangle hit by the ray from `origin` at t * direction.
+Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, vec3 origin, vec3 direction,
+                     float t) {
     Surface s;
     uvec3 tri = Uvec3Array(inst.indices).at[prim];
     Vec3Array positions = Vec3Array(inst.positions);
@@ -139,6 +151,7 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     }
     if (points_inward(along, reversed)) ng = -ng;
     s.ng = ng;
+    s.p = refined_hit(inst, e1, e2, s.p, ng, origin, direction, t);
     if (!shaded) s.ns = ng;
     s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon
                                        : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng);
@@ -183,7 +196,7 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     } else {
         orthonormal_basis(s.ns, s.ss, s.ts);
     }
-    adapt_shading_normal(wo, s);
+    adapt_shading_normal(-direction, s);
     s.ts *= side;
     return s;
 }
