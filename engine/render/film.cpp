@@ -92,7 +92,7 @@ FilmImage Film::read() const {
             if (p.count <= 0) continue;
             const Moments m = moments(p);
             image.twin[std::size_t(shared::twin_of(x, row, height_)) * width_ + x] = {
-                luminance(m.color), std::sqrt(luminance_variance(m, p.count))};
+                luminance(m.color), std::max(std::sqrt(luminance_variance(m, p.count)), 1e-20)}; // > 0: it is there
         }
     correct_errors(image);
     each_film_layer([&](const auto& layer) {

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t radius = 16; // of the neighbourhood [pixel]: some 34 twins
 constexpr double prior = 16;       // twins for which the whole film's ratio counts in it
 constexpr double least_ratio = 1e-3;
-// Where the spread is larger than this times that of the neighbourhood, it is by a few bright samples, and stratification
-// does not help against those.
+// Where the spread is larger than this times that of the neighbourhood, it is by a few bright samples, and
+// stratification does not help against those.
 constexpr double outlier = 2;
 
 struct Sum {
@@ -64,7 +64,7 @@ void correct_errors(FilmImage& film) {
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec2 twin = film.twin[i];
         const double own = film.luminance_variance[i], its = twin.y * twin.y;
-        if (twin == glm::dvec2(0) || !(own + its > 0) || std::max(own, its) > largest(i)) continue;
+        if (!(twin.y > 0) || !(own + its > 1e-30) || std::max(own, its) > largest(i)) continue;
         ratio[i] = {std::pow(luminance(film.color[i]) - twin.x, 2) / (own + its), 1};
         all += ratio[i];
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard error of pixels whose samples are stratified, so not independent of each other. Their spread says what it
-// would be without the stratification, and is precise; the difference between a pixel and its twin, rendered with other
-// random numbers, is right, but a single number, for one pixel of 32 (shared/twins.h). So: the spread, times the mean ratio
-// of the two among the twins nearby.
+// The standard error of pixels whose samples are stratified, so not independent of each other. Their spread says what
+// it would be without the stratification, and is precise; the difference between a pixel and its twin, rendered with
+// other random numbers, is right, but a single number, for one pixel of 32 (shared/twins.h). So: the spread, times the
+// mean ratio of the two among the twins nearby.
 #pragma once
 
 #include "render/film_layers.hpp"

@@ -22,7 +22,7 @@ struct FilmImage {
     std::vector<glm::vec3> std_error; // of the mean, per channel; 0 with fewer than 2 samples. See film_error.hpp
     std::vector<float> luminance_variance; // of the mean
     std::vector<glm::vec3> sample_error; // what std_error would be if samples were independent
-    std::vector<glm::vec2> twin; // luminance of the pixel's twin and, likewise, its error; 0: it has none
+    std::vector<glm::vec2> twin; // luminance of the pixel's twin and, likewise, its error, above 0 if there is one
     // Of the first hit that is not a mirror or smooth glass, for the denoiser.
     std::vector<glm::vec3> albedo; // [0,1], times the throughput of the mirrors and glasses
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)

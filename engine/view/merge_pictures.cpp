@@ -43,12 +43,13 @@ void merge_pixel(std::span<const PicturePart> parts, std::size_t i, FilmImage& o
         color.add(film.color[i], error * error, n);
         light.add(render::luminance(film.color[i]), render::independent_variance(film, i), n);
         const glm::dvec2 t = film.twin[i];
-        if (t != glm::dvec2(0)) twin.add(t.x, t.y * t.y, n);
+        if (t.y > 0) twin.add(t.x, t.y * t.y, n);
     }
     out.color[i] = color.mean();
     out.sample_error[i] = glm::sqrt(color.variance_of_mean());
     out.luminance_variance[i] = float(light.variance_of_mean());
-    out.twin[i] = twin.n > 0 ? glm::dvec2(twin.mean(), std::sqrt(twin.variance_of_mean())) : glm::dvec2(0);
+    out.twin[i] =
+        twin.n > 0 ? glm::dvec2(twin.mean(), std::max(std::sqrt(twin.variance_of_mean()), 1e-20)) : glm::dvec2(0);
 }
 
 // Ids and other first-sample layers stay those of `out`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twins: some of a film's pixels are rendered a second time, with other random numbers, in rows below the film's own. The
-// difference between twins is the error that a pixel has, while the spread of its samples, which are stratified, claims more.
+// Twins: some of a film's pixels are rendered a second time, with other random numbers, in rows below the film's own.
+// The difference between twins is the error that a pixel has, while the spread of its samples, which are stratified,
+// claims more.
 #ifndef RESTAGE_SHARED_TWINS_H
 #define RESTAGE_SHARED_TWINS_H
 #include "shared/hash.h"
