@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <string_view>
 
@@ -28,6 +29,8 @@ double now_seconds() {
 }
 
 } // namespace
+
+double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 void add_device_options(CLI::App& command, render::RendererOptions& o) {
     const std::vector<std::string> tracers = render::tracer_names();
@@ -207,13 +210,13 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
 }
 
 Result<void> render_to_target(Context& context, const RenderOptions& o, const scene::Scene& scene,
-                              render::Renderer& renderer, const std::string& label) {
+                              render::Renderer& renderer, const std::string& label, CpuSeconds* spent) {
     catch_interrupts();
     ProgressBar bar(context.quiet);
     bar.show(0, label + "preparing shaders and acceleration structures");
     bool revived = false;
     RESTAGE_CHECK(renderer.or_revive(renderer.sync(scene), scene, revived));
-    const double start = now_seconds();
+    const double start = now_seconds(), cpu_start = cpu_seconds();
     const std::uint32_t file_spp = scene.settings.value.samples ? scene.settings.value.samples : 64;
     const bool open_ended = o.seconds > 0 || o.error > 0;
     const std::uint32_t target = open_ended ? 1u << 24 : o.spp ? o.spp : file_spp;
@@ -223,6 +226,10 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
         batch = std::min(batch, target - renderer.samples());
         RESTAGE_CHECK(renderer.or_revive(renderer.trace(batch, [] { return !interrupted(); }), scene, revived));
         const double now = now_seconds(), took = now - before, elapsed = now - start;
+        if (spent) {
+            spent->all = cpu_seconds() - cpu_start;
+            if (spent->first == 0) spent->first = spent->all;
+        }
         double done = double(renderer.samples()) / target;
         std::string note = fmt::format("{}{} spp", label, renderer.samples());
         if (o.seconds > 0) {

@@ -59,9 +59,15 @@ Result<glm::uvec2> parse_size(const std::string& text, const char* option);
 // Applies camera, studio, size, depth and roulette of the options to the scene; reports a scene without light.
 Result<void> apply_options(Context& context, const RenderOptions& options, scene::Scene& scene);
 
+double cpu_seconds(); // of all threads of this process, since its start
+
+struct CpuSeconds {
+    double first = 0, all = 0; // until the end of the first sample, which waits for shaders; of the last one
+    double denoising = 0;
+};
 // Renders until the target is met or Ctrl-C. `label` precedes the progress.
 Result<void> render_to_target(Context& context, const RenderOptions& options, const scene::Scene& scene,
-                              render::Renderer& renderer, const std::string& label = "");
+                              render::Renderer& renderer, const std::string& label = "", CpuSeconds* spent = nullptr);
 
 using view::Picture;
 // If requested (a missing denoiser is an error).

@@ -21,6 +21,7 @@ void add_compare(CLI::App& program, Context& context);
 void add_plugins(CLI::App& program, Context& context);
 void add_check(CLI::App& program, Context& context);
 void add_new_plugin(CLI::App& program, Context& context);
+void add_bench(CLI::App& program, Context& context);
 void add_import_child(CLI::App& program, Context& context);
 
 // `compare` for two scenes instead of two pictures (compare_scenes.cpp).
@@ -32,8 +33,8 @@ void add_example(CLI::App& command, const char* example);
 
 // In the order of `restage --help`.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_edit,    add_demo,    add_render, add_merge,      add_info,         add_convert,
-    add_compare, add_plugins, add_check,  add_new_plugin, add_import_child,
+    add_edit,    add_demo,    add_render, add_merge,      add_info,  add_convert,
+    add_compare, add_plugins, add_check,  add_new_plugin, add_bench, add_import_child,
 };
 
 } // namespace restage::app

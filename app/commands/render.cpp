@@ -68,7 +68,7 @@ Result<void> apply_crop(const Options& o, scene::Scene& scene) {
 }
 
 nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, const Picture& picture,
-                                  double relative_error) {
+                                  double relative_error, const CpuSeconds& spent) {
     const auto& stats = renderer.stats();
     nlohmann::ordered_json dropped = nlohmann::ordered_json::object();
     for (const auto& [type, count] : stats.not_finite)
@@ -82,6 +82,9 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
                                    {"seconds", stats.seconds},
                                    {"seconds_shading", stats.seconds_shading},
                                    {"seconds_tracing", stats.seconds_tracing},
+                                   {"cpu_seconds", spent.all},
+                                   {"cpu_seconds_first", spent.first},
+                                   {"cpu_seconds_denoising", spent.denoising},
                                    {"rays", stats.rays},
                                    {"shadow_rays", stats.shadow_rays},
                                    {"not_finite", dropped},
@@ -205,19 +208,22 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     renderer->forget_scene();
     renderer->reset_stats();
     renderer->restart(o.renderer.seed, o.first_sample);
-    RESTAGE_CHECK(render_to_target(context, o, scene, *renderer));
+    CpuSeconds spent;
+    RESTAGE_CHECK(render_to_target(context, o, scene, *renderer, "", &spent));
     if (before && renderer->samples() == 0) return interrupt_exit_code(); // the resumed file is unchanged
     o.picture.metadata = metadata_of(o, *renderer, scene);
     Picture picture{.film = renderer->image(), .denoised = {}, .exposure = scene.film.value.exposure};
     if (before) RESTAGE_CHECK(add_to(*before, picture, o.picture.metadata, o.first_sample, o.renderer.seed));
+    spent.denoising = -cpu_seconds();
     RESTAGE_CHECK(denoise_picture(context, o, picture));
+    spent.denoising += cpu_seconds();
     o.picture.metadata["restage:denoiser"] = picture.denoiser;
     RESTAGE_CHECK(write(o.outputs, picture, o.picture));
 
     const auto& stats = renderer->stats();
     const double relative_error = before ? render::relative_error(picture.film) : renderer->relative_error();
     if (!o.statistics.empty()) {
-        const std::string text = statistics(o, *renderer, picture, relative_error).dump(2) + "\n";
+        const std::string text = statistics(o, *renderer, picture, relative_error, spent).dump(2) + "\n";
         if (o.statistics == "-")
             std::fputs(text.c_str(), stdout);
         else

@@ -8,6 +8,7 @@ from . import _program
 
 def main() -> None:
     program = str(_program())
+    os.environ.setdefault("RESTAGE_PYTHON", sys.executable)  # for `restage bench`
     if os.name == "posix":
         os.execv(program, [program, *sys.argv[1:]])
     import subprocess

@@ -167,6 +167,22 @@ def error(f):
                    "trimmed", "x CPU-s", "p", "fitted floor (noise)"], rows) + notes)
 
 
+HOW = ("`restage bench SCENE... -o FOLDER` charts error against samples and CPU time: `index.html` needs no other file, `bench.json` has all figures. Rows of "
+       "a file (`--rows`; the default is python/restage/bench/rows.txt) are configurations, NAME: OPTIONS of `restage render`. `--mitsuba PYTHON`, `--cycles "
+       "PYTHON` (with the packages mitsuba or bpy) and `--pbrt BINARY` measure these renderers in the same run, on the same scene through our exporters. "
+       "Same size and box filter for all; each renderer is measured against its own reference, whose noise is taken off, and the difference of "
+       "the references is given; bands are ranges over at least 5 seeds. `--growth --budget SECONDS`: rays a second and memory against triangles, "
+       "instances, lights, resolution and depth. `tools/bench --only chart` measures the bundled scenes (`--mitsuba` and so on are passed on).\n\n")
+
+
+def chart(f):
+    scenes = "".join(f"![{name}: relMSE against CPU seconds](chart/{name}-rel_mse-cpu.svg)\n\n" for name in f["scenes"])
+    rows = [[name, c["name"], points[-1]["samples"], f"{points[-1]['cpu']:.2f}", f"{points[-1]['error']:.2e}", f"{points[-1]['error'] * points[-1]['cpu']:.2e}"]
+            for name, scene in f["scenes"].items() for c in scene["configurations"] for points in [c["curve"]]]
+    return ("## Configurations and other renderers\n\n" + HOW + "The page: [chart/index.html](chart/index.html).\n\n" + scenes +
+            table(["scene", "", "samples", "CPU-s", "relMSE", "x CPU-s"], rows))
+
+
 def editor(f):
     rows = [[name, f"{r['median_ms']:.0f}", f"{r['p95_ms']:.0f}", len(r["pixels_ms"]), f"{r['denoised_s']:.2f}"] for name, r in f["rows"].items()]
     ui = f["ui_frame_ms"]
@@ -178,7 +194,7 @@ def editor(f):
             f"Frames of the window while it renders: median {ui['median']:.0f} ms, 99 % {ui['p99']:.0f} ms (target 50 ms).\n")
 
 
-SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "editor": editor}
+SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "chart": chart, "editor": editor}
 
 
 def machine_line(m):
@@ -203,7 +219,7 @@ def write(data, folder):
     for name, section in SECTIONS.items():
         row = data["rows"].get(name)
         if row is None:
-            text.append(f"## {name.replace('_', ' ')}\n\nNot measured in this file: `make bench` measures it (error and first image need RESTAGE_SCENES and RESTAGE_REFERENCES).\n")
+            text.append(f"## {name.replace('_', ' ')}\n\n{HOW if name == 'chart' else ''}Not measured in this file: `make bench` measures it (error and first image need RESTAGE_SCENES and RESTAGE_REFERENCES).\n")
             continue
         text.append(section(row["figures"]) + "\n" + measured_line(row, len(machines) > 1))
     if "error" in data["rows"]:

@@ -30,7 +30,8 @@ class Bench:
         self.restage = args.restage
         self.program = args.restage.parent / "restage_bench"
         self.options = (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
-        self.quick, self.runs = args.quick, args.runs
+        self.quick, self.runs, self.out = args.quick, args.runs, args.out
+        self.peers = [word for name in ("mitsuba", "cycles", "pbrt") if getattr(args, name) for word in (f"--{name}", getattr(args, name))]
         # References are valid for one commit only; a modified checkout recomputes its own each time.
         self.made = tempfile.TemporaryDirectory()
         commit = machine.commit()
@@ -121,12 +122,21 @@ def error(bench):
             for name in (SCENES[-1:] if bench.quick else SCENES)}
 
 
+def chart(bench):
+    """`restage bench` of the bundled scenes, with Mitsuba and pbrt-v4 where given; its page is written to the folder `chart`."""
+    small = ["--size", "64x64", "--samples", "4", "16", "--seeds", "2", "--budget", "20"] if bench.quick else ["--budget", "600"]
+    env = {**os.environ, "RESTAGE_PYTHON": sys.executable}
+    subprocess.run([str(bench.restage), "bench", "cornell", "demo", *small, "--growth", "-o", str(bench.out / "chart"), *bench.peers], check=True,
+                   env=env, stdout=subprocess.DEVNULL)
+    return json.loads((bench.out / "chart/bench.json").read_text())
+
+
 def editor_latency(bench):
     scenes = folder_of("RESTAGE_SCENES")
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "chart": chart, "editor": editor_latency}
 
 
 def main():
@@ -137,6 +147,9 @@ def main():
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
     parser.add_argument("--samples", type=int, default=256, help="a pixel, where the error curves end (default 256)")
     parser.add_argument("--quick", action="store_true", help="a quick run of two minutes: fewer runs, samples and scenes")
+    parser.add_argument("--mitsuba", metavar="PYTHON", help="Python that has mitsuba, for the row chart")
+    parser.add_argument("--cycles", metavar="PYTHON", help="Python that has bpy (Cycles), likewise")
+    parser.add_argument("--pbrt", metavar="BINARY", help="pbrt-v4, likewise")
     parser.add_argument("--report", action="store_true", help="measure nothing, write table and charts from bench.json")
     args = parser.parse_args()
     args.runs = args.runs or (1 if args.quick else 3)
