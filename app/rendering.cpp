@@ -65,6 +65,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--denoiser", o.denoiser,
                        "Use this denoiser: its type or the id of its plugin (default: the one shipped with "
                        "Restage); implies --denoise");
+    command.add_flag("--spectral", o.spectral,
+                     "Trace wavelengths instead of RGB: exact saturated colours, measured metals, dispersion");
     command.add_option("--max-depth", o.max_depth, "Maximum bounces of a path (default: the scene's)")
         ->check(CLI::Range(0, 65534));
     command
@@ -201,6 +203,7 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
     auto settings = scene.settings.value;
     if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";
+    settings.spectral |= o.spectral;
     settings.clamp_direct = o.clamp_direct.value_or(settings.clamp_direct);
     settings.clamp_indirect = o.clamp_indirect.value_or(settings.clamp_indirect);
     settings.ray_epsilon = o.ray_epsilon.value_or(settings.ray_epsilon);

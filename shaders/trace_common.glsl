@@ -41,7 +41,7 @@ struct StepPayload {
     vec3 shadow_origin;
     vec3 shadow_direction;
     float shadow_tmax; // out: > 0 if there is a shadow ray
-    vec3 shadow_contribution; // to the path's radiance, if the light is visible
+    Spectrum shadow_contribution; // to the path's radiance, if the light is visible
     uint shadow_medium;
 };
 

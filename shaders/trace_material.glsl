@@ -12,15 +12,17 @@ void main() {
     InstanceData inst = InstanceArray(scene.instances).at[io.instance];
     MaterialData material = MaterialArray(scene.materials).at[io.material];
     StepRay shadow, next;
-    vec3 contribution;
+    Spectrum contribution;
     GuideSample guide;
     PathState path = io.path;
+#ifdef RESTAGE_SPECTRAL
+    spectral_begin(scene, hero_number(path.seed, path.sample_index));
+#endif
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, io.prim, io.bary, io.t,
                         StepRay(io.origin, io.direction, io.t, io.tmin, 0u, io.receiver), path, shadow, contribution, next, guide);
     if (!ok) {
-        path.radiance = vec3(0);
-        path.throughput = vec3(0);
+        path.radiance = path.throughput = Spectrum(0);
         next.tmax = -1.0;
         atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }

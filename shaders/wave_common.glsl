@@ -9,7 +9,6 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer RayArray { RayHit at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ShadowArray { ShadowRay at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PathArray { PathState at[]; };
 
 layout(push_constant, scalar) uniform Push { WavePush push; };
 
@@ -28,6 +27,13 @@ SceneData wave_scene() {
     scene.ray_epsilon = push.ray_epsilon;
     return scene;
 }
+
+// FourthData[]; not read in RGB mode.
+#ifdef RESTAGE_SPECTRAL
+address wave_fourths() { return FrameRef(push.frame).frame.fourths; }
+#else
+address wave_fourths() { return uint64_t(0); }
+#endif
 
 // Of samples that are black now. The copies that fill a group do not count.
 void count_not_finite(uint type, uint path) {

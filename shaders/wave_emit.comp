@@ -11,18 +11,17 @@ void main() {
     uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
     SceneData scene = wave_scene();
     RayHit ray = load_ray(push.rays, i);
-    PathState path = load_path(push.paths, i);
+    address fourths = wave_fourths();
+    PathState path = load_path(scene, push.paths, fourths, i);
     InstanceData inst = load_instance(push.instances, ray.inst);
     MaterialData material = load_material(push.materials, ray.geom);
     StepRay from = StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u, ray.receiver);
     Surface s = surface_at(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, from);
     if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, ray.tfar, from);
-    vec3 sum = path.radiance + surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
-    PathArray paths = PathArray(push.paths);
-    if (!finite(sum)) {
-        sum = vec3(0);
-        paths.at[i].throughput = vec3(0);
+    path.radiance += surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
+    if (!finite(path.radiance)) {
+        path.radiance = path.throughput = Spectrum(0);
         count_not_finite(material.type, i);
     }
-    paths.at[i].radiance = sum;
+    store_light(push.paths, fourths, i, path);
 }

@@ -4,13 +4,16 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "wave_common.glsl"
+#include "lib/records.glsl"
 #include "path/escape.glsl"
 
 void main() {
     uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
-    PathState path = PathArray(push.paths).at[i];
+    SceneData scene = wave_scene();
+    address fourths = wave_fourths();
     RayArray rays = RayArray(push.rays);
-    path_escape(wave_scene(), receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
-    PathArray(push.paths).at[i].radiance = path.radiance;
+    PathState path = load_path(scene, push.paths, fourths, i);
+    path_escape(scene, receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
+    store_light(push.paths, fourths, i, path);
     RayArray(push.rays).at[i].tfar = -1.0;
 }

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "wave_common.glsl"
+#include "lib/records.glsl"
 #include "path/begin.glsl"
 
 void main() {
@@ -19,6 +20,7 @@ void main() {
     rays.at[i].tfar = INFINITE;
     rays.at[i].tnear = 0.0;
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
-    PathArray(frame.paths).at[i] = path;
+    store_path(frame.paths, frame.fourths, i, path);
+    store_begin(frame.paths, frame.fourths, i, path);
     if (HAS_GUIDES) GuideArray(frame.guides).at[i] = guide_nothing(path.throughput.x);
 }

@@ -9,19 +9,19 @@ void main() {
     uint i = UintArray(push.queue).at[push.queue_first + gl_GlobalInvocationID.x];
     SceneData scene = wave_scene();
     RayHit ray = load_ray(push.rays, i);
-    PathState path = load_path(push.paths, i);
+    address fourths = wave_fourths();
+    PathState path = load_path(scene, push.paths, fourths, i);
     InstanceData inst = load_instance(push.instances, ray.inst);
     MaterialData material = load_material(push.materials, ray.geom);
 
     StepRay shadow, next;
-    vec3 contribution;
+    Spectrum contribution;
     GuideSample guide;
     bool first = (path.flags & PATH_DEPTH_MASK) == 0u, guided = (path.flags & PATH_GUIDED) != 0u;
     bool ok = path_step(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar,
                         StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u, ray.receiver), path, shadow, contribution, next, guide);
     if (!ok) {
-        path.radiance = vec3(0);
-        path.throughput = vec3(0);
+        path.radiance = path.throughput = Spectrum(0);
         next.tmax = -1.0;
         count_not_finite(material.type, i);
     }
@@ -39,6 +39,9 @@ void main() {
         store(out_shadow, 3u, shadow.direction.z, 0.0);
         store(out_shadow, 6u, contribution.x, contribution.y);
         store(out_shadow, 7u, floatBitsToUint(contribution.z), shadow.medium);
+#ifdef RESTAGE_SPECTRAL
+        store(FOURTH_PAIRS(i), 1u, contribution.w, path_hero);
+#endif
     }
     WordPairs out_ray = WordPairs(push.rays + uint64_t(i) * 80ul);
     store(out_ray, 4u, floatBitsToUint(next.tmax), ~0u);
@@ -49,10 +52,5 @@ void main() {
         store(out_ray, 3u, next.direction.z, 0.0);
         if (LIGHT_ROOTS > 1u) store(out_ray, 5u, next.receiver, 0u);
     }
-    WordPairs out_path = WordPairs(push.paths + uint64_t(i) * 48ul);
-    store(out_path, 0u, path.throughput.x, path.throughput.y);
-    store(out_path, 1u, path.throughput.z, path.pdf);
-    store(out_path, 2u, path.radiance.x, path.radiance.y);
-    store(out_path, 3u, floatBitsToUint(path.radiance.z), path.flags);
-    store(out_path, 4u, floatBitsToUint(path.eta_scale), path.medium);
+    store_path(push.paths, fourths, i, path);
 }

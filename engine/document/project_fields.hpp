@@ -146,6 +146,7 @@ void fields(V& v, scene::Settings& s) {
     v("max_depth", s.max_depth);
     v("samples", s.samples);
     v("russian_roulette", s.russian_roulette);
+    v("spectral", s.spectral);
     v("clamp_direct", s.clamp_direct);
     v("clamp_indirect", s.clamp_indirect);
     v("ray_epsilon", s.ray_epsilon);

@@ -311,9 +311,9 @@ void EmbreeScene::intersect(shared::RayHit& ray, std::vector<Undecided>* undecid
     intersect(surfaces_, ray, undecided);
 }
 
-EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint32_t medium) const {
+EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint32_t medium, float hero) const {
     const glm::vec3& direction = stretch.direction;
-    glm::vec3 depth(0); // optical
+    glm::vec4 depth(0); // optical
     float t = stretch.t_start;
     std::uint32_t step = 4; // [ulp] past the border just met
     alignas(16) shared::RayHit ray{};
@@ -325,7 +325,7 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
         ray.tfar = stretch.t_end;
         ray.geom = ray.inst = NONE;
         intersect(borders_, ray, nullptr);
-        depth += scene_->absorption(medium) * (ray.tfar - t);
+        depth += scene_->absorption(medium, hero) * (ray.tfar - t);
         if (ray.inst == NONE) return {glm::exp(-depth), medium};
         medium = scene_->medium_behind(ray.inst, ray.prim, {ray.u, ray.v}, direction);
         step = ray.tfar > t ? 4 : 2 * step; // rounding may find the same border again

@@ -39,14 +39,14 @@ class EmbreeScene {
     // Transmittance along a ray from t_start to t_end, and the medium there: Beer-Lambert between
     // the borders of media that the ray passes, nearest first; each one sets the medium behind it (pbrt 4ed, 11.4).
     struct Passed {
-        glm::vec3 transmittance;
+        glm::vec4 transmittance; // RGB (x, y, z), or of the wavelengths chosen by `hero`
         std::uint32_t medium;
     };
     struct Stretch {
         glm::vec3 origin, direction;
         float t_start = 0, t_end = 0;
     };
-    Passed pass_borders(const Stretch&, std::uint32_t medium) const;
+    Passed pass_borders(const Stretch&, std::uint32_t medium, float hero) const;
 
   private:
     struct Mesh;

@@ -115,6 +115,11 @@ class EmbreeTracer final : public Tracer {
         f.shadows = shadows_.address();
         f.paths = paths_.address();
         f.guides = guides_.address();
+        if (scene.features().spectral && !fourths_) {
+            RESTAGE_TRY(fourths_, c_.device.create_buffer(all_paths * sizeof(shared::FourthData),
+                                                          gpu::BufferKind::readback, "fourth wavelengths"));
+        }
+        if (scene.features().spectral) f.fourths = fourths_.address();
         f.queue = queue_.address();
         f.counters = counters_.address();
         RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
@@ -151,7 +156,7 @@ class EmbreeTracer final : public Tracer {
                 RESTAGE_TRY(const bool decided, decide(scene, bounce >= data.max_depth, keep_going));
                 if (!decided) return false;
             }
-            queue_hits();
+            queue_hits(scene);
             if (queued_ == 0) break;
             RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
@@ -209,13 +214,22 @@ class EmbreeTracer final : public Tracer {
         std::vector<Open> open;
     };
 
+    // nullptr in RGB mode.
+    shared::FourthData* fourth_of(const GpuScene& scene, std::uint32_t path) {
+        return scene.features().spectral ? &fourths_.span<shared::FourthData>()[path] : nullptr;
+    }
+
     // Light that arrives along an unoccluded shadow ray.
     void add_light(const GpuScene& scene, std::uint32_t path, float distance) {
         const shared::ShadowRay& shadow = shadows_.span<shared::ShadowRay>()[path];
-        glm::vec3 c = shadow.contribution;
-        if (scene.features().borders)
-            c *= embree_->pass_borders({shadow.origin, shadow.direction, 0, distance}, shadow.medium).transmittance;
-        paths_.span<shared::PathState>()[path].radiance += c;
+        shared::FourthData* fourth = fourth_of(scene, path);
+        glm::vec4 c(shadow.contribution, fourth ? fourth->contribution : 0.f);
+        if (scene.features().borders) {
+            const EmbreeScene::Stretch way{shadow.origin, shadow.direction, 0, distance};
+            c *= embree_->pass_borders(way, shadow.medium, fourth ? fourth->hero : 0.f).transmittance;
+        }
+        paths_.span<shared::PathState>()[path].radiance += glm::vec3(c);
+        if (fourth) fourth->radiance += c.w;
     }
 
     // Adds the unoccluded shadow-ray contributions of these paths. Returns the number of rays.
@@ -251,8 +265,11 @@ class EmbreeTracer final : public Tracer {
         shared::RayHit& ray = rays_.span<shared::RayHit>()[i];
         shared::PathState& path = paths_.span<shared::PathState>()[i];
         if (scene.features().borders) {
-            const auto passed = embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, path.medium);
-            path.throughput *= passed.transmittance;
+            shared::FourthData* fourth = fourth_of(scene, i);
+            const auto passed = embree_->pass_borders({ray.origin, ray.direction, ray.tnear, ray.tfar}, path.medium,
+                                                      fourth ? fourth->hero : 0.f);
+            path.throughput *= glm::vec3(passed.transmittance);
+            if (fourth) fourth->throughput *= passed.transmittance.w;
             path.medium = passed.medium;
         }
         emits_[i] = ray.inst != NONE && (scene.instances()[ray.inst].flags & INSTANCE_EMITS);
@@ -405,7 +422,7 @@ class EmbreeTracer final : public Tracer {
 
     // Afterwards `queue_` holds the hit paths sorted by type, type_count_ their numbers, active_ those that will be
     // shaded.
-    void queue_hits() {
+    void queue_hits(const GpuScene& scene) {
         const auto start = Clock::now();
         auto queue = queue_.span<std::uint32_t>();
         const std::size_t n = active_.size(), chunks = counts_.size();
@@ -443,13 +460,13 @@ class EmbreeTracer final : public Tracer {
                 }
             }
         });
-        fill_groups();
+        fill_groups(scene.features().spectral);
         active_.swap(next_active_);
         stats_.seconds_tracing += seconds_since(start);
     }
 
     // Completes the last group of each type's queue.
-    void fill_groups() {
+    void fill_groups(bool spectral) {
         auto queue = queue_.span<std::uint32_t>();
         std::uint32_t spare = wave_paths;
         for (std::size_t t = 0; t < type_none; ++t) {
@@ -459,6 +476,7 @@ class EmbreeTracer final : public Tracer {
                 const std::uint32_t i = queue[type_first_[t]];
                 rays_.span<shared::RayHit>()[spare] = rays_.span<shared::RayHit>()[i];
                 paths_.span<shared::PathState>()[spare] = paths_.span<shared::PathState>()[i];
+                if (spectral) fourths_.span<shared::FourthData>()[spare] = fourths_.span<shared::FourthData>()[i];
                 queue[k] = spare;
             }
         }
@@ -466,7 +484,7 @@ class EmbreeTracer final : public Tracer {
 
     TracerContext c_;
     std::unique_ptr<EmbreeScene> embree_;
-    gpu::Buffer rays_, shadows_, paths_, guides_, queue_, counters_, frame_;
+    gpu::Buffer rays_, shadows_, paths_, fourths_, guides_, queue_, counters_, frame_;
     WaveKernels kernels_;
     std::vector<Undecided> undecided_; // by chunk of active_
     gpu::Buffer asked_, decided_;

@@ -25,7 +25,7 @@ inline const char* glsl_type(const model::Param& p) {
     }
 }
 
-// A COLOR's RGB as the Spectrum that the plugin sees.
+// RGB as the Spectrum that the plugin sees.
 inline std::string spectrum(const model::Param& p, const std::string& rgb) {
     return fmt::format("{}({})", p.max <= 1 ? "spectrum_from_rgb" : "spectrum_from_rgb_unbounded", rgb);
 }
@@ -33,11 +33,11 @@ inline std::string spectrum(const model::Param& p, const std::string& rgb) {
 inline std::string read_value(const model::Param& p, std::uint32_t at) {
     switch (p.type) {
         case model::ParamType::color:
-            return spectrum(p, fmt::format("vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
-                                           "uintBitsToFloat(w.at[at + {}]))",
-                                           at, at + 1, at + 2));
+            return fmt::format("stored_spectrum(vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
+                               "uintBitsToFloat(w.at[at + {}])))",
+                               at, at + 1, at + 2);
         case model::ParamType::number:
-            return fmt::format("uintBitsToFloat(w.at[at + {}])", at);
+            return fmt::format("stored_number(w.at[at + {}])", at);
         case model::ParamType::boolean:
             return fmt::format("w.at[at + {}] != 0u", at);
         case model::ParamType::table:

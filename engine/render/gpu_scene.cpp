@@ -43,15 +43,17 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
             origin_ = glm::dvec3(camera->camera_to_world[3]);
         have_origin_ = true;
     }
+    const bool colors = change_colors(scene);
+    if (colors) seen_.instances = 0; // their emission is stored differently
     const bool meshes = first_ || scene.meshes.version() != seen_.meshes;
     const bool images = first_ || scene.images.version() != seen_.images;
     bool other_words = false; // of texture plugins
     const bool texture_plugins = refresh_texture_types(texture_types_, lookup_.textures, other_words);
     const bool textures = images || scene.textures.version() != seen_.textures || other_words;
     const bool plugins = refresh_types() || texture_plugins;
-    const bool materials = first_ || scene.materials.version() != seen_.materials || textures || plugins;
+    const bool materials = first_ || colors || scene.materials.version() != seen_.materials || textures || plugins;
     const bool instances = first_ || meshes || scene.instances.version() != seen_.instances;
-    const bool lights = instances || images || scene.lights.version() != seen_.lights ||
+    const bool lights = instances || colors || images || scene.lights.version() != seen_.lights ||
                         scene.environment.version != seen_.environment || scene.meshes.version() != seen_.meshes;
     if (meshes) RESTAGE_CHECK(sync_meshes(scene, changes));
     if (textures) RESTAGE_CHECK(sync_textures(scene, changes));
@@ -66,8 +68,8 @@ Result<SceneChanges> GpuScene::sync(const Scene& scene) {
     if (lights || !changes.instances.empty() || (textures && (features_.emission_textures || features_.light_alpha)))
         RESTAGE_CHECK(sync_lights(
             scene, changes,
-            all || scene.lights.version() != seen_.lights || scene.environment.version != seen_.environment));
-    RESTAGE_CHECK(sync_root(scene, changes));
+            all || colors || scene.lights.version() != seen_.lights || scene.environment.version != seen_.environment));
+    RESTAGE_CHECK(sync_root(scene, changes, colors));
     changes.shaders |= plugins;
     changes.film = first_ || scene.film.version != seen_.film;
     // A name, a group, an inactive camera: not on the device, and invisible.
@@ -352,6 +354,8 @@ std::size_t GpuScene::bytes() const {
                       env_texels_.size() * sizeof(glm::vec4) +
                       (env_rows_.size() + env_columns_.size() + light_cdf_.size()) * sizeof(shared::CdfEntry) +
                       light_nodes_.size() * sizeof(shared::LightNode);
+    sum += color_cells_.size() * sizeof(glm::uvec2) + color_film_.size() * sizeof(glm::vec4) +
+           curve_entries_.size() * sizeof(glm::vec2);
     for (const auto& [id, mesh] : meshes_)
         sum += mesh.buffer.size();
     for (const auto& p : pixels_)
@@ -364,7 +368,8 @@ std::size_t GpuScene::uploaded_bytes() const {
            programs_.uploaded_bytes() + texture_words_.uploaded_bytes() + images_.uploaded_bytes() +
            lights_.uploaded_bytes() + light_cdf_.uploaded_bytes() + light_nodes_.uploaded_bytes() +
            media_.uploaded_bytes() + env_texels_.uploaded_bytes() + env_rows_.uploaded_bytes() +
-           env_columns_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() +
+           env_columns_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() + color_cells_.uploaded_bytes() +
+           color_film_.uploaded_bytes() + curve_entries_.uploaded_bytes() +
            tables_.uploaded_bytes();
 }
 

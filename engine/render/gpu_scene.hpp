@@ -8,9 +8,11 @@
 #include "gpu/device.hpp"
 #include "render/environment_map.hpp"
 #include "render/gpu_array.hpp"
+#include "render/grey.hpp"
 #include "render/light_table.hpp"
 #include "render/material_composer.hpp"
 #include "render/renderer_options.hpp"
+#include "render/spectral_colors.hpp"
 #include "render/table_store.hpp"
 #include "render/texture_program.hpp"
 #include "scene/emission.hpp"
@@ -103,7 +105,11 @@ class GpuScene {
     // The medium that a ray enters at a border.
     std::uint32_t medium_behind(std::uint32_t instance, std::uint32_t prim, glm::vec2 bary,
                                 const glm::vec3& direction) const;
-    const glm::vec3& absorption(std::uint32_t medium) const { return media_[medium].sigma_a; }
+    // Its absorption in RGB (x, y, z), or in spectral mode at the wavelengths that `hero` chooses.
+    glm::vec4 absorption(std::uint32_t medium, float hero) const {
+        const glm::vec3& stored = media_[medium].sigma_a;
+        return features_.spectral ? spectrum_at(stored, hero, curves_.entries()) : glm::vec4(stored, 0);
+    }
 
     std::size_t bytes() const; // of device memory
     std::size_t uploaded_bytes() const;
@@ -115,6 +121,11 @@ class GpuScene {
         std::shared_ptr<const scene::PixelData> data; // of the scene
         std::shared_ptr<const scene::PixelData> clean; // the same, or a copy with non-finite values set to 0
     };
+    bool change_colors(const scene::Scene&); // true: the mode changed, and with it all stored colours
+    Result<void> sync_spectral();
+    glm::vec3 stored_absorption(const scene::Medium&);
+    ValueStore value_store(const scene::Origin&, bool& curves); // curves: set if it stores one
+    glm::vec3 stored_light(const scene::Origin&, std::string_view id, const glm::vec3& rgb);
     Result<void> sync_meshes(const scene::Scene&, SceneChanges&);
     Result<void> sync_textures(const scene::Scene&, SceneChanges&);
     Result<void> sync_materials(const scene::Scene&, SceneChanges&);
@@ -123,16 +134,17 @@ class GpuScene {
     Result<void> flush_lights();
     Result<void> sync_lights(const scene::Scene&, SceneChanges&, bool all);
     void find_undecided();
-    Result<void> sync_root(const scene::Scene&, SceneChanges&);
+    Result<void> sync_root(const scene::Scene&, SceneChanges&, bool colors);
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
     std::uint32_t type_index(const std::string& type);
     bool refresh_types();
     // An instance's effective emission: its own, else its material's.
     std::optional<scene::MaterialEmission> emission_of(const scene::Scene&, const scene::Instance&) const;
-    double mean_emission(std::uint32_t instance, std::uint32_t triangle, int points) const; // luminance
+    double mean_emission(std::uint32_t instance, const glm::vec3& radiance, std::uint32_t triangle,
+                         int points) const; // luminance
     float alpha_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
     std::optional<Emitter> emitter_of(const scene::Scene&, scene::Id<scene::Instance>) const;
-    shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&) const;
+    shared::InstanceData make_instance(const scene::Scene&, std::uint32_t id, const scene::Instance&);
     // Both sets, like hit_uv in shaders/lib/scene.glsl.
     glm::vec4 uv_at(const shared::InstanceData&, const scene::MeshData&, std::uint32_t prim, glm::vec2 bary) const;
 
@@ -166,6 +178,14 @@ class GpuScene {
     std::vector<std::uint32_t> used_material_; // of visible instances; 0 = none
     EnvironmentMap environment_;
 
+    const SpectralColors* colors_ = nullptr; // in spectral mode
+    SpectralCurves curves_;
+    GreyTest grey_;
+    bool light_curves_ = false; // of SceneFeatures
+
+    GpuArray<glm::uvec2> color_cells_{"coefficients of spectra"};
+    GpuArray<glm::vec4> color_film_{"film of spectra"};
+    GpuArray<glm::vec2> curve_entries_{"measured spectra"};
     GpuArray<shared::InstanceData> instances_{"instances"};
     GpuArray<shared::MaterialData> materials_{"materials"};
     GpuArray<std::uint32_t> params_{"material parameters"};

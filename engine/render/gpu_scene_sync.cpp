@@ -64,7 +64,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     const auto old_types = types_;
     for (auto& t : types_) {
         t.textured.clear();
-        t.bump = t.used = false;
+        t.bump = t.used = t.curves = false;
     }
     const std::uint32_t fallback = type_index("diffuse"); // replaces materials whose plugin is missing
     if (!types_[fallback].plugin.table)
@@ -79,19 +79,22 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     std::vector<std::optional<scene::MaterialEmission>> emission(records.size());
     reads_files_ = false;
     tables_.begin();
-    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, std::uint32_t type,
+    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, const scene::Origin& origin, std::uint32_t type,
                           std::span<const DeviceTable> tables = {}) {
         record.type = type;
-        const auto color = stand_in_color(*types_[type].plugin.table, params);
-        words.insert(words.end(), color.begin(), color.end());
+        const auto store = value_store(origin, types_[type].curves);
+        glm::vec3 color = stand_in_color(*types_[type].plugin.table, params);
+        if (colors_) color = colors_->reflectance(color);
+        for (int k = 0; k < 3; ++k)
+            words.push_back(std::bit_cast<std::uint32_t>(color[k]));
         record.params = std::uint32_t(words.size());
-        const auto packed = pack_material(*types_[type].plugin.table, params, tables);
+        const auto packed = pack_material(*types_[type].plugin.table, params, tables, colors_ ? &store : nullptr);
         words.insert(words.end(), packed.begin(), packed.end());
     };
     std::map<std::uint32_t, std::string> said;
     scene::ParamSet pink;
     pink.set("reflectance", scene::Value::color(0.8f, 0.1f, 0.5f));
-    pack(records[0], pink, fallback);
+    pack(records[0], pink, {}, fallback);
 
     scene.materials.each([&](Id<scene::Material> id, const scene::Material& m) {
         shared::MaterialData& record = records[id.value];
@@ -130,11 +133,11 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
         reads_files_ |= type.plugin.source && type.plugin.source->table_reader();
         const auto tables = tables_.find(type.plugin, m.params);
         if (!tables) { // its file is missing or broken: grey, until fixed
-            pack(record, {}, fallback);
+            pack(record, {}, {}, fallback);
             said[id.value] = tables.error().message + "; shown as grey";
             return;
         }
-        pack(record, m.params, index, *tables);
+        pack(record, m.params, m.origin, index, *tables);
         if (type.plugin.emits()) emission[id.value] = scene::emission_of(*type.plugin.table, m.params);
         record.bump = m.params.texture("bump").value;
         record.normal_map = m.params.texture("normalmap").value;
@@ -165,7 +168,7 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     changes.shaders |= old_types.size() != types_.size();
     for (std::size_t i = 0; i < old_types.size() && !changes.shaders; ++i)
         changes.shaders = old_types[i].textured != types_[i].textured || old_types[i].bump != types_[i].bump ||
-                          old_types[i].used != types_[i].used;
+                          old_types[i].used != types_[i].used || old_types[i].curves != types_[i].curves;
     materials_.assign(std::move(records));
     params_.assign(std::move(words));
     RESTAGE_CHECK(materials_.flush(*device_));
@@ -180,14 +183,15 @@ std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene,
 
 // At points spread over the triangle: the Kronecker lattice of the plastic number (Roberts 2018). Parts
 // removed by alpha do not emit.
-double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int points) const {
+double GpuScene::mean_emission(std::uint32_t id, const glm::vec3& radiance, std::uint32_t triangle,
+                               int points) const {
     const auto& instance = instances_[id];
     const auto& mesh = *mesh_data_[mesh_of_[id].value];
     double sum = 0;
     for (int i = 0; i < points; ++i) {
         glm::vec2 b = glm::fract(glm::vec2(0.5) + float(i) * glm::vec2(0.7548777f, 0.5698403f));
         if (!(instance.flags & INSTANCE_QUADRIC) && b.x + b.y > 1) b = 1.f - b;
-        glm::vec3 c = instance.emission;
+        glm::vec3 c = radiance;
         if (instance.emission_texture)
             c *= glm::max(glm::vec3(0), evaluate_texture(textures_, cpu_images_, instance.emission_texture,
                                                          uv_at(instance, mesh, triangle, b)));
@@ -198,7 +202,7 @@ double GpuScene::mean_emission(std::uint32_t id, std::uint32_t triangle, int poi
     return sum / points;
 }
 
-shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t id, const scene::Instance& in) const {
+shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t id, const scene::Instance& in) {
     shared::InstanceData out{};
     glm::dmat4 m = in.object_to_world;
     m[3] -= glm::dvec4(origin_, 0);
@@ -220,8 +224,8 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     if (in.emission && in.emission->unseen) out.flags |= INSTANCE_EMITS_UNSEEN;
     if (const auto emission = emission_of(scene, in)) {
         out.flags |= INSTANCE_EMITS | (emission->two_sided ? INSTANCE_TWO_SIDED : 0);
-        out.emission = emission->radiance;
         out.emission_texture = scene.textures.find(emission->texture) ? emission->texture.value : 0;
+        out.emission = out.emission_texture ? emission->radiance : stored_light(in.origin, "emission", emission->radiance);
     }
     if (in.media) {
         out.flags |= INSTANCE_HAS_MEDIA;
@@ -355,14 +359,17 @@ std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instan
     if (!(flags & INSTANCE_EMITS) || (flags & INSTANCE_HAS_GAPS)) return std::nullopt;
     const bool alpha = (flags & INSTANCE_HAS_ALPHA) != 0, unseen = (flags & INSTANCE_EMITS_UNSEEN) != 0;
     if (alpha && !unseen && !instance.alpha_texture && !(instance.alpha > 0)) return std::nullopt;
-    Emitter out{.radiance = instance.emission,
+    Emitter out{.radiance = emission_of(scene, *in)->radiance,
+                .stored = instance.emission,
                 .two_sided = (flags & INSTANCE_TWO_SIDED) != 0,
                 .varies = instance.emission_texture || alpha,
                 .mean = {}};
     if (instance.emission_texture || (alpha && !unseen)) { // 16,384 lookups at most, unless there are more triangles
         const auto triangles = is_quadric(id.value) ? 64 : mesh_data_[mesh_of_[id.value].value]->triangles.size();
         const int points = int(std::clamp<std::size_t>(16384 / triangles, 1, 32));
-        out.mean = [this, id, points](std::uint32_t t) { return mean_emission(id.value, t, points); };
+        out.mean = [this, id, points, radiance = out.radiance](std::uint32_t t) {
+            return mean_emission(id.value, radiance, t, points);
+        };
     }
     return out;
 }
@@ -409,7 +416,8 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
         light_alpha_ |= out && (instances_[id.value].flags & INSTANCE_HAS_ALPHA);
         return out;
     };
-    light_table_ = make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), emitter);
+    const auto lamp = [&](const scene::Light& light) { return stored_light(light.origin, "value", light.value); };
+    light_table_ = make_light_table(scene, origin_, env ? environment_.mean * env->scale : glm::vec3(0), emitter, lamp);
     for (std::uint32_t i = 1; i < instances_.size(); ++i)
         if (instances_[i].light_base != light_table_.light_base[i]) {
             auto record = instances_[i];
@@ -449,10 +457,10 @@ void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData
 
 } // namespace
 
-Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
-    if (first_ || scene.media.version() != seen_.media) {
+Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool colors) {
+    if (first_ || colors || scene.media.version() != seen_.media) {
         std::vector<shared::MediumData> media(scene.media.size() + 1);
-        scene.media.each([&](Id<scene::Medium> id, const scene::Medium& m) { media[id.value].sigma_a = m.sigma_a; });
+        scene.media.each([&](Id<scene::Medium> id, const scene::Medium& m) { media[id.value].sigma_a = stored_absorption(m); });
         media_.assign(std::move(media));
         RESTAGE_CHECK(media_.flush(*device_));
     }
@@ -473,7 +481,8 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
         rotation /= std::max(std::cbrt(std::abs(glm::determinant(rotation))), 1e-300);
         d.environment.world_from_env = glm::mat3(rotation);
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
-        d.environment.scale = env->scale;
+        d.environment.scale =
+            environment_.texels.empty() ? stored_light(env->origin, "scale", env->scale) : env->scale;
         d.environment.hidden = env->hidden_from_camera;
         d.environment.mapping = environment_.texels.empty()                  ? ENV_CONSTANT
                                 : env->mapping == scene::Mapping::octahedral ? ENV_OCTAHEDRAL
@@ -483,6 +492,12 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
         d.environment.texels = env_texels_.address();
         d.environment.rows = env_rows_.address();
         d.environment.columns = env_columns_.address();
+    }
+    RESTAGE_CHECK(sync_spectral());
+    if (colors_) {
+        d.spectral_coefficients = color_cells_.address();
+        d.spectral_curves = curve_entries_.address();
+        d.spectral_film = color_film_.address();
     }
     set_camera(scene, origin_, d.camera);
     const scene::Filter& filter = scene.film.value.filter;
@@ -527,6 +542,8 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes) {
     f.lights = light_table_.kinds;
     const auto emitters = std::uint32_t(light_table_.nodes.size()), roots = light_table_.roots;
     f.light_roots = emitters > light_node_children ? 9 : roots > 1 ? std::bit_ceil(roots) : roots;
+    f.spectral = colors_ != nullptr;
+    f.curves = light_curves_;
     f.borders = std::ranges::find(border_, 1) != border_.end();
     changes.shaders |= f != features_ || first_;
     features_ = f;

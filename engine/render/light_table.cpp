@@ -87,7 +87,7 @@ LightData quadric_light(const scene::Quadric& q, const glm::dmat4& place, const 
     light.kind = LIGHT_QUADRIC | (emits.two_sided ? LIGHT_TWO_SIDED : 0) | std::uint32_t(std::ceil(sixteenths)) << 16;
     light.offset = std::isfinite(offset) ? float(offset) : 0.f;
     light.area = float(q.area());
-    light.value = emits.radiance;
+    light.value = emits.stored.value_or(emits.radiance);
     return light;
 }
 
@@ -123,7 +123,7 @@ LightData triangle_light(const glm::dmat4& place, const scene::Instance& instanc
     light.b = b;
     light.c = c;
     light.area = float(0.5 * glm::length(glm::cross(b, c)));
-    light.value = emits.radiance;
+    light.value = emits.stored.value_or(emits.radiance);
     return light;
 }
 
@@ -299,7 +299,8 @@ std::optional<shared::LightNode> add_emitter(LightTable& table, const scene::Sce
 } // namespace
 
 LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            const std::function<std::optional<Emitter>(Id<scene::Instance>)>& emitter) {
+                            const std::function<std::optional<Emitter>(Id<scene::Instance>)>& emitter,
+                            const std::function<glm::vec3(const scene::Light&)>& lamp) {
     LightTable table;
     table.light_base.assign(scene.instances.size() + 1, NONE);
     std::vector<shared::LightNode> emitters;
@@ -321,7 +322,7 @@ LightTable make_light_table(const scene::Scene& scene, const glm::dvec3& origin,
         if (item.hidden || luminance(item.value) <= 0) return;
         const glm::dmat4& m = item.light_to_world;
         LightData light{};
-        light.value = item.value;
+        light.value = lamp ? lamp(item) : item.value;
         light.a = glm::dvec3(m[3]) - origin;
         light.b = glm::normalize(glm::dvec3(m[2]));
         const scene::Cone cone = scene::cone_of(item);

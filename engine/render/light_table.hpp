@@ -26,6 +26,7 @@ struct LightTable {
 // An emissive surface.
 struct Emitter {
     glm::vec3 radiance{0}; // [W/(m^2 sr)]
+    std::optional<glm::vec3> stored = {}; // what LightData.value is set to; none: the radiance
     bool two_sided = false;
     bool varies = false; // by an emission texture or by alpha: looked up at the sampled point
     // The mean luminance over a triangle if it varies; approximate: it only chooses among
@@ -36,8 +37,10 @@ struct Emitter {
 // environment_mean: mean radiance of the environment over the sphere, scale applied (0 = none).
 // emitter: called once per instance; nullopt = no entry, as for mixes with a null component: paths find them
 // by BSDF sampling only.
+// lamp: what LightData.value of a light without a surface is set to; null: its value.
 LightTable make_light_table(const scene::Scene&, const glm::dvec3& origin, const glm::vec3& environment_mean,
-                            const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter);
+                            const std::function<std::optional<Emitter>(scene::Id<scene::Instance>)>& emitter,
+                            const std::function<glm::vec3(const scene::Light&)>& lamp = {});
 
 // Replaces the lights of one emitter that is in the table and has moved or changed its emission, and refits the tree:
 // its bounds hold, though it may choose less well than a new one. nullopt: their number or kind differs; nothing is

@@ -147,8 +147,15 @@ gpu::ShaderSource compose_material(const MaterialType& type, const std::string& 
                                    ColorMode color, std::span<const TextureType> textures) {
     return compose(type, main_file, stage, false, color, textures);
 }
-gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage) {
-    return compose(type, main_file, stage, true, ColorMode::rgb);
+gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage stage,
+                                   ColorMode color) {
+    return compose(type, main_file, stage, true, color);
+}
+
+void set_color_mode(ColorMode mode, gpu::ShaderSource& source) {
+    static constexpr std::string_view before = "#include \"lib/extensions.glsl\"\n";
+    const std::size_t at = source.text.find(before); // every file of shaders/ has it
+    if (mode == ColorMode::spectral && at != std::string::npos) source.text.insert(at, "#define RESTAGE_SPECTRAL 1\n");
 }
 
 plugin::Registry::Judge material_judge(std::filesystem::path shader_dir) {
@@ -191,7 +198,8 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {14, f.camera},
             {15, f.quadrics},
             {16, f.lights},
-            {17, f.light_roots}};
+            {17, f.light_roots},
+            {18, f.curves || (type && type->curves)}};
 }
 
 } // namespace restage::render

@@ -24,14 +24,19 @@ struct SceneFeatures {
     bool light_alpha = false; // some lamp has alpha below 1
     bool glow = false;        // some lamp has no surface
     bool quadrics = false;    // spheres, disks, cylinders
+    bool spectral = false;    // requested, and some colour is not grey
+    bool curves = false;      // of it: some light or medium has a measured spectrum
     std::uint32_t camera = 0; // CAMERA_*
     std::uint32_t lights = 0; // LIGHTS_*
     std::uint32_t light_roots = 0;
     bool operator==(const SceneFeatures&) const = default;
 };
 
-// The definition of Spectrum in the composed shader: see shaders/restage/v1/spectrum.glsl. No spectral rendering yet.
+// The definition of Spectrum in a shader: see shaders/restage/v1/spectrum.glsl.
 enum class ColorMode { rgb, spectral };
+inline ColorMode color_mode(const SceneFeatures& f) { return f.spectral ? ColorMode::spectral : ColorMode::rgb; }
+// For a kernel that is not composed.
+void set_color_mode(ColorMode, gpu::ShaderSource&);
 
 // `main_file`: "wave_shade.glsl" or another tracer's wrapper around path_step.
 gpu::ShaderSource compose_material(const MaterialType&, const std::string& main_file, gpu::ShaderStage,
@@ -41,7 +46,8 @@ bool evaluates_textures(const SceneFeatures&, const MaterialType&);
 
 // The stand-in for a material that is still compiling: `type` (diffuse) with its defaults, in the material's
 // own colour; see MaterialData::params.
-gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage);
+gpu::ShaderSource compose_stand_in(const MaterialType& type, const std::string& main_file, gpu::ShaderStage,
+                                   ColorMode = ColorMode::rgb);
 
 // Checks that a material's GLSL compiles within the kernel that renders it. Needs no device. For Registry::set_judge.
 // [main]

@@ -36,18 +36,22 @@ std::string table_path(const model::Param& line, const scene::ParamSet& params) 
 }
 
 void pack_value(const model::Param& line, const scene::ParamSet& params, std::vector<std::uint32_t>& words,
-                DeviceTable table) {
+                DeviceTable table, const ValueStore* store) {
     if (value_words(line) == 0) return;
     const scene::Value* set = params.find(line.id);
     const scene::Value value = set ? *set : scene::default_value(line);
     switch (line.type) {
-        case model::ParamType::color:
-            for (int k = 0; k < 3; ++k) // a number used as a colour is grey
-                words.push_back(
-                    std::bit_cast<std::uint32_t>(value.type == model::ParamType::color ? value.v[k] : value.scalar()));
+        case model::ParamType::color: {
+            glm::vec3 c(value.scalar()); // a number used as a colour is grey
+            if (value.type == model::ParamType::color) c = {value.v[0], value.v[1], value.v[2]};
+            if (store) c = store->color(line, c);
+            for (int k = 0; k < 3; ++k)
+                words.push_back(std::bit_cast<std::uint32_t>(c[k]));
             break;
+        }
         case model::ParamType::number:
-            words.push_back(std::bit_cast<std::uint32_t>(value.scalar()));
+            words.push_back(store ? store->number(line, value.scalar())
+                                  : std::bit_cast<std::uint32_t>(value.scalar()));
             break;
         case model::ParamType::table:
             words.push_back(std::uint32_t(table.address));
@@ -65,13 +69,14 @@ void pack_value(const model::Param& line, const scene::ParamSet& params, std::ve
 }
 
 std::vector<std::uint32_t> pack_material(const model::Material& table, const scene::ParamSet& params,
-                                         std::span<const DeviceTable> tables) {
+                                         std::span<const DeviceTable> tables, const ValueStore* store) {
     std::vector<std::uint32_t> words;
     std::size_t next_table = 0;
     for (const model::Param& line : table.params) {
         if (value_words(line) == 0) continue;
         const bool reads = line.type == model::ParamType::table;
-        pack_value(line, params, words, reads && next_table < tables.size() ? tables[next_table] : DeviceTable{});
+        pack_value(line, params, words, reads && next_table < tables.size() ? tables[next_table] : DeviceTable{},
+                   store);
         next_table += reads;
         if (line.texturable) words.push_back(params.texture(line.id).value);
     }
@@ -86,7 +91,7 @@ std::string word_layout(const model::Material* table) {
     return layout;
 }
 
-std::array<std::uint32_t, 3> stand_in_color(const model::Material& table, const scene::ParamSet& params) {
+glm::vec3 stand_in_color(const model::Material& table, const scene::ParamSet& params) {
     scene::Value color = scene::Value::color(.5f, .5f, .5f);
     for (const model::Param& line : table.params) {
         if (line.type != model::ParamType::color || line.max != 1) continue;
@@ -95,12 +100,11 @@ std::array<std::uint32_t, 3> stand_in_color(const model::Material& table, const 
         color = set && !set->texture ? *set : scene::default_value(line); // with a texture the number is unused
         break;
     }
-    std::array<std::uint32_t, 3> words{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const float v = color.type == model::ParamType::color ? color.v[k] : color.scalar();
-        words[k] = std::bit_cast<std::uint32_t>(v > 0 ? std::min(v, 0.9f) : 0.f);
-    }
-    return words;
+    glm::vec3 rgb(color.scalar());
+    if (color.type == model::ParamType::color) rgb = {color.v[0], color.v[1], color.v[2]};
+    for (int k = 0; k < 3; ++k)
+        rgb[k] = rgb[k] > 0 ? std::min(rgb[k], 0.9f) : 0.f;
+    return rgb;
 }
 
 } // namespace restage::render

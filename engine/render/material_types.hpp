@@ -52,6 +52,7 @@ struct MaterialType {
     std::vector<bool> textured; // by table line, up to the last one textured by any material of the scene
     bool used = false;          // by a visible instance; types are never removed
     bool bump = false;          // some material of the type has a bump or normal map
+    bool curves = false;        // some material of the type has a measured spectrum, in spectral mode
     bool is_textured(std::size_t line) const { return line < textured.size() && textured[line]; }
     bool mix() const { return plugin.table && plugin.table->mix; }
     bool null_surface() const { return plugin.table && plugin.table->null_surface; }
@@ -72,19 +73,26 @@ struct DeviceTable {
 // The file of a model::ParamType::table line: the set one, else its default; "" = none.
 std::string table_path(const model::Param& line, const scene::ParamSet&);
 
+// In spectral mode: the words that a value is stored as (shared/spectral.h), instead of its own.
+struct ValueStore {
+    std::function<glm::vec3(const model::Param&, const glm::vec3& rgb)> color;
+    std::function<std::uint32_t(const model::Param&, float)> number;
+};
+
 // The words of one material: values of the table's lines in order, defaults if unset. `tables`: of its
 // model::ParamType::table lines, in order; missing ones are empty.
 std::vector<std::uint32_t> pack_material(const model::Material&, const scene::ParamSet&,
-                                         std::span<const DeviceTable> tables = {});
+                                         std::span<const DeviceTable> tables = {}, const ValueStore* = nullptr);
 
 // Appends the words of one line's value, its texture aside; `table`: of a model::ParamType::table line.
-void pack_value(const model::Param&, const scene::ParamSet&, std::vector<std::uint32_t>&, DeviceTable table = {});
+void pack_value(const model::Param&, const scene::ParamSet&, std::vector<std::uint32_t>&, DeviceTable table = {},
+                const ValueStore* = nullptr);
 
 // The layout of those words, as text: shaders composed for one table can read words packed for another of equal layout.
 std::string word_layout(const model::Material*);
 
 // The material's colour while its shader is compiling: its first reflectance colour, or grey.
 // Stored in the three words before its own, for compose_stand_in.
-std::array<std::uint32_t, 3> stand_in_color(const model::Material&, const scene::ParamSet&);
+glm::vec3 stand_in_color(const model::Material&, const scene::ParamSet&);
 
 } // namespace restage::render

@@ -193,6 +193,7 @@ class VulkanTracer final : public Tracer {
             const auto path = c_.shader_dir / name;
             RESTAGE_TRY(auto text, read_file(path));
             gpu::ShaderSource source{.name = path.string(), .text = std::move(text), .stage = stage};
+            set_color_mode(color_mode(scene.features()), source);
             if (stage != gpu::ShaderStage::miss && stage != gpu::ShaderStage::closest_hit)
                 insert_textures(scene.texture_types(), source); // cut-outs, mixes
             r.shaders.push_back(std::move(source));
@@ -207,7 +208,8 @@ class VulkanTracer final : public Tracer {
         const auto add_stand_in = [&] {
             if (!stand_in)
                 stand_in =
-                    shader(compose_stand_in(types[placeholder], "trace_material.glsl", gpu::ShaderStage::callable));
+                    shader(compose_stand_in(types[placeholder], "trace_material.glsl", gpu::ShaderStage::callable,
+                                           color_mode(scene.features())));
             r.callables.push_back(stand_in);
             r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy));
         };
@@ -216,7 +218,7 @@ class VulkanTracer final : public Tracer {
             mixes |= type.mix();
             if (!plain && type.used && type.plugin.table && type.plugin.table->has_code()) {
                 r.callables.push_back(shader(compose_material(
-                    type, "trace_material.glsl", gpu::ShaderStage::callable, ColorMode::rgb,
+                    type, "trace_material.glsl", gpu::ShaderStage::callable, color_mode(scene.features()),
                     evaluates_textures(scene.features(), type) ? scene.texture_types() : TextureTypes())));
                 r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
@@ -238,7 +240,7 @@ class VulkanTracer final : public Tracer {
         wanted_ = store_.want("path tracer", std::move(made));
         wanted_types_.clear();
         for (const auto& type : scene.types())
-            wanted_types_.push_back(type.type + word_layout(type.plugin.table));
+            wanted_types_.push_back(type.type + word_layout(type.plugin.table) + (scene.features().spectral ? "s" : ""));
         shown_ = false;
         if (wanted_->pipeline) arrive();
         return {};

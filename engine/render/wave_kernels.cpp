@@ -9,6 +9,7 @@
 namespace restage::render {
 
 Result<void> WaveKernels::select(const GpuScene& scene) {
+    const bool other_colors = features_.spectral != scene.features().spectral; // and other words of values
     features_ = scene.features();
     auto before = std::exchange(types_, scene.types());
     texture_types_ = scene.texture_types();
@@ -18,7 +19,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
     before.resize(types_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         // Another scene, or a plugin reloaded with a different table
-        if (slots_[i].what != types_[i].type ||
+        if (other_colors || slots_[i].what != types_[i].type ||
             word_layout(before[i].plugin.table) != word_layout(types_[i].plugin.table))
             slots_[i] = {.what = types_[i].type};
         slots_[i].settled = slots_[i].shown = false;
@@ -37,16 +38,18 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
     gpu::ComputeRequest r{.push_constant_bytes = sizeof(shared::WavePush), .name = slot.what};
     const MaterialType* type = nullptr;
     if (&slot == &stand_in_) {
-        r.shader = compose_stand_in(types_[stand_in_type_], "wave_shade.glsl", gpu::ShaderStage::compute);
+        r.shader = compose_stand_in(types_[stand_in_type_], "wave_shade.glsl", gpu::ShaderStage::compute,
+                                    color_mode(features_));
     } else if (&slot >= slots_.data() && &slot < slots_.data() + slots_.size()) {
         type = &types_[std::size_t(&slot - slots_.data())];
-        r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute, ColorMode::rgb,
+        r.shader = compose_material(*type, "wave_shade.glsl", gpu::ShaderStage::compute, color_mode(features_),
                                     evaluates_textures(features_, *type) ? texture_types_ : TextureTypes());
         r.blame = type->plugin.blame;
     } else {
         const auto path = c_.shader_dir / slot.what;
         RESTAGE_TRY(auto text, read_file(path));
         r.shader = {.name = path.string(), .text = std::move(text)};
+        set_color_mode(color_mode(features_), r.shader);
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
     if (&slot == &decide_) r.push_constant_bytes = sizeof(shared::DecidePush);

@@ -212,6 +212,7 @@ struct Settings {
     std::uint32_t max_depth = 8; // pbrt's maxdepth
     std::uint32_t samples = 64;
     bool russian_roulette = true;
+    bool spectral = false; // paths carry four wavelengths instead of RGB
     float clamp_direct = 0, clamp_indirect = 0; // biased; 0 = off
     float ray_epsilon = 0; // 0 = error-bounded offsets; else an offset in scene units
     Id<Medium> camera_medium;

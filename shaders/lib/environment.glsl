@@ -5,13 +5,14 @@
 #include <restage/v1/sampling.glsl>
 #include "lib/cdf.glsl"
 #include "lib/sampler.glsl"
+#include "lib/spectral.glsl"
 #include "shared/octahedral.h"
 
 struct LightSample {
     vec3 wi;       // unit, towards the light
     float dist;    // to it; 1e30 = infinitely far
     vec3 end;      // end of a shadow ray that cannot hit the light itself; unless infinitely far
-    vec3 radiance; // arriving, unoccluded; for delta lights divided by squared distance only
+    Spectrum radiance; // arriving, unoccluded; for delta lights divided by squared distance only
     float pdf;     // solid angle, times the probability of choosing this light; 0 = no sample
     bool delta;    // point, spot, distant: cannot be hit, no MIS
     float unseen;  // fraction of the radiance that rays pass without a hit: only this sampling finds it, no MIS
@@ -60,21 +61,22 @@ float environment_density(EnvironmentData env, float density, float sin_theta) {
     return sin_theta <= 0.0 ? 0.0 : density / (2.0 * PI * PI * sin_theta);
 }
 // Radiance from direction w (world), and the density with which light sampling finds it (without the light's pmf).
-vec3 environment_eval(EnvironmentData env, vec3 w, out float pdf) {
+Spectrum environment_eval(EnvironmentData env, vec3 w, out float pdf) {
     if (env.mapping == ENV_CONSTANT) {
         pdf = 0.25 * INV_PI;
-        return env.scale;
+        return stored_spectrum(env.scale);
     }
     vec3 local = env.env_from_world * w;
     vec4 le = environment_lookup(env, environment_uv(env, local));
     pdf = environment_density(env, le.w, length(local.xy));
-    return env.scale * le.xyz;
+    return spectrum_from_rgb_unbounded(env.scale * le.xyz);
 }
 // Between the middles of texels the density is bilinear: a row of such cells is drawn, a cell of it, and a point in the
 // cell. The cells at the image's edges are halves or quarters.
 LightSample environment_sample(EnvironmentData env, uvec2 bits) {
-    LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), env.scale, 0.25 * INV_PI, false, 0.0);
+    LightSample s = LightSample(vec3(0, 0, 1), 1e30, vec3(0), Spectrum(0), 0.25 * INV_PI, false, 0.0);
     if (env.mapping == ENV_CONSTANT) {
+        s.radiance = stored_spectrum(env.scale);
         s.wi = sample_sphere(vec2(to_unit(bits.x), to_unit(bits.y)));
         return s;
     }
@@ -107,7 +109,7 @@ LightSample environment_sample(EnvironmentData env, uvec2 bits) {
         local = vec3(sin_theta * cos(phi), sin_theta * sin(phi), cos(theta));
     }
     s.wi = env.world_from_env * local;
-    s.radiance = env.scale * le.xyz;
+    s.radiance = spectrum_from_rgb_unbounded(env.scale * le.xyz);
     s.pdf = environment_density(env, le.w, sin_theta);
     return s;
 }

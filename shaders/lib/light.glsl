@@ -32,11 +32,10 @@ float light_offset(LightData light, vec3 p, float dist) {
 }
 
 // Radiance leaving a point of an emitter, on its emitting side.
-vec3 emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
-    if (!HAS_EMISSION_TEXTURES || inst.emission_texture == 0u) return inst.emission;
+Spectrum emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
+    if (!HAS_EMISSION_TEXTURES || inst.emission_texture == 0u) return stored_spectrum(inst.emission);
     TextureAt at = texture_at(scene, inst, prim, bary, hit_uv(inst, prim, bary));
-    return inst.emission *
-           max(vec3(0), rgb_from_spectrum(texture_eval(scene, inst.emission_texture, at, TEXTURE_UNBOUNDED)));
+    return spectrum_from_rgb_unbounded(inst.emission * max(vec3(0), texture_data(scene, inst.emission_texture, at)));
 }
 
 // Density per solid angle at p of sampling this point of a lamp, chosen already. cos_light: at the point, above 0.
@@ -51,7 +50,7 @@ float lamp_density(LightData light, vec3 p, float dist, float cos_light) {
 // Towards a point. `pick` chooses the emitter, `bits` the place on it. Loads stand outside of conditions as far as possible: see records.glsl.
 LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
     vec3 p = to.p;
-    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), vec3(0), 0.0, false, 0.0);
+    LightSample s = LightSample(vec3(0, 0, 1), 0.0, vec3(0), Spectrum(0), 0.0, false, 0.0);
     float pmf;
     uint chosen = light_choose(scene, to, pick, pmf);
     LightNode emitter = LightNodeArray(scene.light_nodes).at[chosen];
@@ -75,7 +74,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
         s.pdf *= pmf;
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP) {
         LampRay ray = lamp_ray(kind - LIGHT_LAMP, light.a, light.b, light.c, p);
-        s = LightSample(ray.wi, ray.dist, light.a, light.value * ray.amount, ray.dist > 0.0 ? pmf : 0.0, true, 0.0);
+        s = LightSample(ray.wi, ray.dist, light.a, stored_spectrum(light.value) * ray.amount, ray.dist > 0.0 ? pmf : 0.0, true, 0.0);
     } else if (HAS_LAMP_SURFACES) {
         vec3 q = light.a;
         vec2 bary = vec2(0);
@@ -122,7 +121,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
         float c = -dot(n, s.wi);
         if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
         s.end = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, p, s.dist), -s.wi);
-        s.radiance = light.value;
+        s.radiance = stored_spectrum(light.value);
         if ((HAS_EMISSION_TEXTURES || HAS_LIGHT_ALPHA) && light.instance != NONE) {
             InstanceData inst = InstanceArray(scene.instances).at[light.instance];
             uint prim = index - inst.light_base;

@@ -4,6 +4,7 @@
 #ifndef RESTAGE_LIB_RECORDS
 #define RESTAGE_LIB_RECORDS
 #include "lib/scene.glsl"
+#include "lib/spectral.glsl"
 #include "shared/path_data.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer WordPairs { uint64_t at[]; };
@@ -29,11 +30,23 @@ RayHit load_ray(address rays, uint i) {
     return r;
 }
 
-PathState load_path(address paths, uint i) {
+#ifdef RESTAGE_SPECTRAL
+#define FOURTH_PAIRS(i) WordPairs(fourths + uint64_t(i) * 16ul)
+#endif
+
+// `fourths`: FourthData[]; not read in RGB mode. In spectral mode also begins the path's spectrum.
+PathState load_path(SceneData scene, address paths, address fourths, uint i) {
     WordPairs w = WordPairs(paths + uint64_t(i) * 48ul);
     vec2 a = floats_at(w, 0u), b = floats_at(w, 1u), c = floats_at(w, 2u);
     uvec2 d = pair_at(w, 3u), e = pair_at(w, 4u), f = pair_at(w, 5u);
-    return PathState(vec3(a, b.x), b.y, vec3(c, uintBitsToFloat(d.x)), d.y, uintBitsToFloat(e.x), e.y, f.x, f.y);
+#ifdef RESTAGE_SPECTRAL
+    vec2 fourth = floats_at(FOURTH_PAIRS(i), 0u);
+    spectral_begin(scene, floats_at(FOURTH_PAIRS(i), 1u).y);
+    Spectrum throughput = Spectrum(a, b.x, fourth.x), radiance = Spectrum(c, uintBitsToFloat(d.x), fourth.y);
+#else
+    Spectrum throughput = Spectrum(a, b.x), radiance = Spectrum(c, uintBitsToFloat(d.x));
+#endif
+    return PathState(throughput, b.y, radiance, d.y, uintBitsToFloat(e.x), e.y, f.x, f.y);
 }
 
 InstanceData load_instance(address instances, uint i) {
@@ -71,5 +84,29 @@ MaterialData load_material(address materials, uint i) {
 
 void store(WordPairs words, uint k, uint x, uint y) { words.at[k] = packUint2x32(uvec2(x, y)); }
 void store(WordPairs words, uint k, float x, float y) { store(words, k, floatBitsToUint(x), floatBitsToUint(y)); }
+
+// Throughput and radiance.
+void store_light(address paths, address fourths, uint i, PathState path) {
+    WordPairs out_path = WordPairs(paths + uint64_t(i) * 48ul);
+    store(out_path, 0u, path.throughput.x, path.throughput.y);
+    store(out_path, 1u, path.throughput.z, path.pdf);
+    store(out_path, 2u, path.radiance.x, path.radiance.y);
+    store(out_path, 3u, floatBitsToUint(path.radiance.z), path.flags);
+#ifdef RESTAGE_SPECTRAL
+    store(FOURTH_PAIRS(i), 0u, path.throughput.w, path.radiance.w);
+#endif
+}
+// All but seed and sample_index, which never change.
+void store_path(address paths, address fourths, uint i, PathState path) {
+    store_light(paths, fourths, i, path);
+    store(WordPairs(paths + uint64_t(i) * 48ul), 4u, floatBitsToUint(path.eta_scale), path.medium);
+}
+// Those, and the wavelengths.
+void store_begin(address paths, address fourths, uint i, PathState path) {
+    store(WordPairs(paths + uint64_t(i) * 48ul), 5u, path.seed, path.sample_index);
+#ifdef RESTAGE_SPECTRAL
+    store(FOURTH_PAIRS(i), 1u, 0.0, hero_number(path.seed, path.sample_index));
+#endif
+}
 
 #endif

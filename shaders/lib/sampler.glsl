@@ -45,6 +45,7 @@ uint pixel_seed(uint pixel, bool twin, uint seed) { return pcg_hash(pixel ^ pcg_
 // The table of a path's pairs: two for the camera, then four per vertex. Who else needs random numbers takes a new row.
 const uint PAIR_FILTER = 0u;                                  // a point of the pixel filter
 const uint PAIR_LENS = 1u;                                    // a point of the lens
+const uint PAIR_WAVELENGTHS = 0xffffffffu;                    // x: the hero wavelength; behind those of all vertices
 uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which emitter, y: Russian roulette
 uint pair_light(uint depth) { return 3u + 4u * depth; }       // a point on it
 uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction

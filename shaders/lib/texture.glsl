@@ -6,6 +6,7 @@
 #ifndef RESTAGE_LIB_TEXTURE
 #define RESTAGE_LIB_TEXTURE
 #include "lib/scene.glsl"
+#include "lib/spectral.glsl"
 #include <restage/v1/texture.glsl>
 #ifdef RESTAGE_TEXTURE_SITES
 #include "lib/site.glsl"

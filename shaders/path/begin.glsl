@@ -18,7 +18,7 @@ PathState path_begin(SceneRef scene, FrameData frame, uint pixel, uint sample_in
     vec2 offset = filter_sample(scene.scene.filter_, sample_pair(seed, sample_index, PAIR_FILTER), weight);
     vec2 u_lens = HAS_LENS ? sample_pair(seed, sample_index, PAIR_LENS) : vec2(0.5);
     camera_ray(scene.scene.camera, vec2(xy) + 0.5 + offset, u_lens, origin, direction);
-    return PathState(vec3(weight), 0.0, vec3(0), PATH_SPECULAR | PATH_GUIDED, 1.0, scene.scene.camera_medium, seed, sample_index);
+    return PathState(Spectrum(weight), 0.0, Spectrum(0), PATH_SPECULAR | PATH_GUIDED, 1.0, scene.scene.camera_medium, seed, sample_index);
 }
 
 #endif

@@ -17,16 +17,16 @@ struct StepRay {
 };
 
 // Beer-Lambert up to a hit.
-vec3 absorb_to_hit(SceneData scene, uint medium, float t, StepRay ray) {
+Spectrum absorb_to_hit(SceneData scene, uint medium, float t, StepRay ray) {
     return absorb(scene, medium, HAS_GLOW ? t - ray.tmin : t);
 }
 
 // What a surface that emits adds to a path that hits it, of `ray` at t; path.throughput: at the hit.
-vec3 surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface s, float t, StepRay ray, PathState path) {
+Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface s, float t, StepRay ray, PathState path) {
     uint depth = path.flags & PATH_DEPTH_MASK;
     float c = dot(-ray.direction, s.ng);
     if ((inst.flags & INSTANCE_TWO_SIDED) != 0u) c = abs(c);
-    if (c <= 0.0) return vec3(0);
+    if (c <= 0.0) return Spectrum(0);
     float w = 1.0;
     if (LIGHT_ROOTS > 0u && (path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2 && inst.light_base != NONE) {
         LightData light = LightArray(scene.lights).at[inst.light_base + prim];

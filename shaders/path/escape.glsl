@@ -6,15 +6,16 @@
 #include "shared/path_data.h"
 
 // Biased; 0 = off.
-vec3 clamp_contribution(SceneData scene, vec3 c, uint depth) {
+Spectrum clamp_contribution(SceneData scene, Spectrum c, uint depth) {
     float limit = depth == 0u ? scene.clamp_direct : scene.clamp_indirect;
     float m = max_component(c);
     return limit > 0.0 && m > limit ? c * (limit / m) : c;
 }
 
 // Beer-Lambert along a ray in one medium. If the ray crosses borders of media, the tracer has applied it.
-vec3 absorb(SceneData scene, uint medium, float distance_) {
-    return HAS_MEDIA && !HAS_BORDERS && medium != 0u ? exp(-distance_ * MediumArray(scene.media).at[medium].sigma_a) : vec3(1);
+Spectrum absorb(SceneData scene, uint medium, float distance_) {
+    if (!HAS_MEDIA || HAS_BORDERS || medium == 0u) return Spectrum(1);
+    return exp(-distance_ * stored_spectrum(MediumArray(scene.media).at[medium].sigma_a));
 }
 
 // Radiance of the environment for a path that left the scene from its last vertex, `from`.
@@ -24,7 +25,7 @@ void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState
     // Directly from the camera, also through cut-outs and null surfaces; glass and mirrors show it.
     if (depth == 0u && scene.environment.hidden != 0u) return;
     float pdf_env;
-    vec3 le = environment_eval(scene.environment, direction, pdf_env);
+    Spectrum le = environment_eval(scene.environment, direction, pdf_env);
     float w = 1.0;
     if ((path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2) {
         float pdf_light = pdf_env * light_choice_pmf(scene, from, LightArray(scene.lights).at[scene.environment.light].node);

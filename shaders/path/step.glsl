@@ -5,8 +5,7 @@
 // emission has a kernel of its own.
 //
 // The material composer defines before this file: Material (the parameter struct), material_fetch, material_eval,
-// material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore. A path carries RGB:
-// their Spectrum is converted here.
+// material_pdf, material_sample, material_albedo, with an Rng argument that most materials ignore.
 #ifndef RESTAGE_PATH_STEP
 #define RESTAGE_PATH_STEP
 #include <restage/v1/bsdf.glsl>
@@ -24,16 +23,23 @@
 // scenes, and within 3 % of it on the others.
 const float ROULETTE_LEVEL = 0.3;
 
+// Of a single sample's albedo. Four wavelengths scatter around a colour, and their mean must stay the colour.
+#ifdef RESTAGE_SPECTRAL
+const vec3 ALBEDO_LEAST = vec3(-16), ALBEDO_MOST = vec3(16);
+#else
+const vec3 ALBEDO_LEAST = vec3(0), ALBEDO_MOST = vec3(1);
+#endif
+
 // From a hit, of `ray` at t, to the next rays. Returns false if something was not finite: the path then ends, and
 // contributes no more.
 bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, uint prim, vec2 bary, float t,
-               StepRay ray, inout PathState path, out StepRay shadow, out vec3 shadow_contribution,
+               StepRay ray, inout PathState path, out StepRay shadow, out Spectrum shadow_contribution,
                out StepRay next, out GuideSample guide) {
     shadow.tmax = -1.0;
     next.tmax = -1.0;
     next.tmin = 0.0;
     next.receiver = 0u;
-    shadow_contribution = vec3(0);
+    shadow_contribution = Spectrum(0);
     guide = guide_nothing(1.0);
     vec3 wo_world = -ray.direction;
     uint depth = path.flags & PATH_DEPTH_MASK;
@@ -59,14 +65,20 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
 
     Material m = material_fetch(scene, material_data.params, texture_at(scene, inst, prim, bary, s.uv));
+#ifdef RESTAGE_SPECTRAL
+    if (HAS_CURVES && path_disperses && (path.flags & PATH_HERO) == 0u) { // a direction is right for one wavelength only
+        path.throughput *= Spectrum(4, 0, 0, 0);
+        path.flags |= PATH_HERO;
+    }
+#endif
 #ifdef MATERIAL_SITE
     m.site = make_site(scene, inst, prim, bary, s.p, s.ng);
 #endif
     vec3 wo = to_local(s, wo_world);
     if (HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u) {
-        vec3 seen = depth == 0u ? vec3(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);
-        vec3 albedo = seen * rgb_from_spectrum(material_albedo(m, wo));
-        guide.albedo = finite(albedo) ? clamp(albedo, vec3(0), vec3(1)) : vec3(0);
+        Spectrum seen = depth == 0u ? Spectrum(1) : abs(path.throughput) / (scene.filter_.weight.x * scene.filter_.weight.y);
+        vec3 albedo = rgb_from_spectrum(seen * material_albedo(m, wo));
+        guide.albedo = finite(albedo) ? clamp(albedo, ALBEDO_LEAST, ALBEDO_MOST) : vec3(0);
         guide.normal = finite(s.ns) ? s.ns : vec3(0);
         guide.depth = t;
         guide.instance_id = inst.object_id;
@@ -86,12 +98,12 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
-            vec3 f = same_side == same_hemisphere(wo, wi) ? rgb_from_spectrum(material_eval(m, wo, wi, rng)) : vec3(0);
+            Spectrum f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : Spectrum(0);
             ok = finite(f);
             if (max_component(f) > 0.0) {
                 float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
                 if (HAS_LIGHT_ALPHA) w = mix(w, 1.0, light.unseen);
-                vec3 c = path.throughput * f * light.radiance * (w / light.pdf);
+                Spectrum c = path.throughput * f * light.radiance * (w / light.pdf);
                 uint medium = path.medium;
                 if (HAS_MEDIA && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
                     medium = dot(light.wi, s.ng) > 0.0 ? inst.exterior : inst.interior;
@@ -117,25 +129,28 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
-    vec3 weight = rgb_from_spectrum(b.weight);
-    vec3 sums = shadow_contribution + path.radiance;
-    if (shadow.tmax > 0.0) sums += shadow.origin + shadow.direction;
-    if (b.flags != 0u) sums += weight + b.wi + vec3(b.pdf, b.eta, 0.0);
-    ok = ok && finite(sums);
+    Spectrum colors = shadow_contribution + path.radiance;
+    vec3 others = vec3(0);
+    if (shadow.tmax > 0.0) others += shadow.origin + shadow.direction;
+    if (b.flags != 0u) {
+        colors += b.weight;
+        others += b.wi + vec3(b.pdf, b.eta, 0.0);
+    }
+    ok = ok && finite(colors) && finite(others);
     if (!ok) {
         shadow.tmax = -1.0;
         return false;
     }
-    if (last || b.flags == 0u || !positive(max_component(weight))) return true;
+    if (last || b.flags == 0u || !positive(max_component(b.weight))) return true;
     vec3 wi_world = to_world(s, b.wi);
     bool same_side = dot(wi_world, s.ng) * dot(wo_world, s.ng) > 0.0;
     if (same_side != ((b.flags & BSDF_REFLECT) != 0u)) return true;
-    path.throughput *= weight;
+    path.throughput *= b.weight;
     path.pdf = b.pdf;
     path.eta_scale *= b.eta * b.eta;
     if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
         path.medium = dot(wi_world, s.ng) > 0.0 ? inst.exterior : inst.interior;
-    path.flags = (depth + 1u) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u);
+    path.flags = (depth + 1u) | (path.flags & PATH_HERO) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u);
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
     // ... and not while the denoiser's guide is still ahead

@@ -13,7 +13,8 @@
 #define RESTAGE_REAL3 glm::dvec3
 namespace restage::shared {
 inline uint floatBitsToUint(float x) { return std::bit_cast<uint>(x); }
-using glm::abs, glm::atan, glm::clamp, glm::cos, glm::dot, glm::max, glm::min, glm::sin, glm::sqrt;
+inline float uintBitsToFloat(uint x) { return std::bit_cast<float>(x); }
+using glm::abs, glm::atan, glm::clamp, glm::cos, glm::dot, glm::log, glm::max, glm::min, glm::sin, glm::sqrt;
 } // namespace restage::shared
 #else
 #define RESTAGE_INLINE

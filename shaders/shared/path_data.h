@@ -5,10 +5,17 @@
 #define RESTAGE_SHARED_PATH_DATA_H
 #include "shared/address.h"
 #include "shared/types.h"
+#ifdef __cplusplus
+#define RESTAGE_CARRIED vec3
+#else
+#include <restage/v1/spectrum.glsl>
+#define RESTAGE_CARRIED Spectrum
+#endif
 
 RESTAGE_CONSTANTS_BEGIN
 RESTAGE_UINT(PATH_SPECULAR, 0x10000u); // the last bounce was a delta lobe (or the camera)
 RESTAGE_UINT(PATH_GUIDED, 0x20000u); // the denoiser's guide is still ahead: only delta bounces so far
+RESTAGE_UINT(PATH_HERO, 0x40000u); // only the hero wavelength is left: it went through something dispersive
 RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
 RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
 RESTAGE_UINT(COUNTER_RAYS, 64u);
@@ -48,15 +55,22 @@ struct ShadowRay { // 64 bytes
     uint medium; // at its origin; only where HAS_BORDERS
 };
 
-struct PathState { // 48 bytes
-    vec3 throughput;
+// 48 bytes. A Spectrum of four has its last number in a FourthData, so that records are those of RGB.
+struct PathState {
+    RESTAGE_CARRIED throughput;
     float pdf; // of the last BSDF sample, solid angle
-    vec3 radiance;
+    RESTAGE_CARRIED radiance;
     uint flags;       // depth | PATH_*
     float eta_scale;  // product of eta^2 on transmissions; Russian roulette factors it out
     uint medium;
     uint seed;        // of the pixel's random numbers
     uint sample_index;
+};
+
+struct FourthData { // 16 bytes, of a path in spectral mode
+    float throughput, radiance;
+    float contribution; // of its ShadowRay
+    float hero; // [0, 1): the number that chose its wavelengths; shared/spectral.h
 };
 
 struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the first that is not a mirror or smooth glass
@@ -91,6 +105,7 @@ struct FrameData { // behind the push constant
     address rays; // RayHit[]
     address shadows; // ShadowRay[]
     address paths; // PathState[]
+    address fourths; // FourthData[], or 0 in RGB mode
     address guides; // GuideSample[] or 0
     address queue; // uint[]: path indices, grouped by type
     address film; // FilmPixel[]

@@ -69,7 +69,7 @@ RESTAGE_SHARED_BEGIN
 struct InstanceData { // 184 bytes
     mat4x3 object_to_world;
     mat3 normal_to_world; // inverse transpose of the linear part, no sign changes
-    vec3 emission; // radiance; times emission_texture
+    vec3 emission; // radiance, stored (shared/spectral.h); with emission_texture RGB, to be multiplied
     address positions; // vec3[]
     address normals; // vec3[] or 0
     address uvs; // vec2[] or 0
@@ -129,7 +129,7 @@ struct LightData { // 72 bytes
     float pmf; // of being chosen from its emitter
     vec3 c;
     float area; // of both triangles of a pair
-    vec3 value; // radiance, intensity or irradiance
+    vec3 value; // radiance, intensity or irradiance; stored
     float offset; // of a triangle: the part of light_offset that does not depend on the ray
     uint instance; // of a quadric, or of a triangle with an emission texture or alpha; else NONE
     uint node; // LightNode of its emitter
@@ -157,7 +157,7 @@ struct LightNode { // 60 bytes
 struct EnvironmentData {
     mat3 env_from_world;
     mat3 world_from_env;
-    vec3 scale;
+    vec3 scale; // of a constant environment its radiance, stored
     uint mapping;
     address texels; // vec4[]: rgb, and the density with which light sampling chooses a point of the image
     address rows; // CdfEntry[height + 1]: cells between the rows' middles; render/environment_map.hpp
@@ -184,7 +184,7 @@ struct FilterData {
 };
 
 struct MediumData {
-    vec3 sigma_a;
+    vec3 sigma_a; // stored
 };
 
 struct SceneData {
@@ -192,6 +192,10 @@ struct SceneData {
     EnvironmentData environment;
     CameraData camera;
     FilterData filter_;
+    // Of spectral mode, else 0; shared/spectral.h
+    address spectral_coefficients; // uvec2[3][SPECTRAL_CELLS]^3: packed, of the RGB cube
+    address spectral_curves; // vec2[][SPECTRAL_CURVE]: measured spectra
+    address spectral_film; // vec4[SPECTRAL_BINS]: RGB of light at the wavelengths of a bin
     uint max_depth;
     uint russian_roulette;
     uint camera_medium;

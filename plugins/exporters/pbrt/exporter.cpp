@@ -21,6 +21,7 @@ Kept Exporter::kept(const RestageOrigin& origin, const std::string& what) {
         const RestageOriginValue& value = RESTAGE_AT(RestageOriginValue, origin.values, i);
         const std::string_view id = value.id;
         if (id == whole_light) continue; // picture_light's
+        if (id.starts_with("spectrum:")) continue; // for the renderer; pbrt's own notation is beside it
         if (ours && id == "*")
             out.whole.emplace_back(value.text);
         else if (ours)

@@ -29,6 +29,9 @@ std::string Builder::exact_light(const Directive& d, const char* id, const char*
         return param.type != "float" && (!is_rgb || param.color_space != ColorSpace::srgb);
     };
     if (!reduced(name) && !reduced("scale")) return "";
+    std::string spectrum;
+    if (const auto given = reduced("scale") ? std::nullopt : import_.given_spectrum(d.params, name))
+        spectrum = spectrum_line(id, {double(value[0]), double(value[1]), double(value[2])}, *given);
     std::string line = std::string("=") + id;
     for (const float x : value)
         line += " " + shortest(static_cast<double>(x));
@@ -39,7 +42,7 @@ std::string Builder::exact_light(const Directive& d, const char* id, const char*
         line += " \"rgb scale\" [ " + shortest(scale) + " " + shortest(scale) + " " + shortest(scale) + " ]";
     else if (scale != 1)
         line += " \"float scale\" [ " + shortest(scale) + " ]";
-    return line + "\n";
+    return line + "\n" + spectrum;
 }
 
 void Builder::light(const Directive& d) {

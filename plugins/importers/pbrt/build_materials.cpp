@@ -30,9 +30,12 @@ void Builder::put_index(Values& values, const char* id, const Directive& d, cons
         if (std::abs(low - high) > 1e-4)
             import_.approximated(
                 d.at, d.word,
-                "dispersion of \"" + std::string(name) + "\" is left out: its luminance-weighted mean is used");
-        values.number(id, luminance_mean(*spectrum));
+                "dispersion of \"" + std::string(name) + "\" is left out in RGB: its luminance-weighted mean is used");
+        const double mean = luminance_mean(*spectrum);
+        values.number(id, mean);
         keep_exact(id, d, name);
+        const auto given = import_.given_spectrum(d.params, name);
+        if (given && std::abs(given->front() - given->back()) > 1e-4) keep_spectrum(id, {mean, mean, mean}, given);
         return;
     }
     put_float(values, id, d, name, otherwise);
@@ -80,6 +83,8 @@ void Builder::put_metal(Values& values, const Directive& d, const char* eta, con
             values.color(k_id, index.k);
             keep_exact(eta_id, d, eta);
             keep_exact(k_id, d, k);
+            keep_spectrum(eta_id, index.eta, n);
+            keep_spectrum(k_id, index.k, absorption);
             return;
         }
     }

@@ -63,6 +63,11 @@ void Builder::medium(const Directive& d) {
     for (const char* name : {"preset", "Le", "Lescale"})
         if (d.params.has(name)) (verbatim += to_text(*d.params.find(name))) += '\n';
     verbatim += import_.keep_unused(d.params, what);
+    if (auto given = import_.given_spectrum(d.params, "sigma_a")) {
+        for (double& x : *given)
+            x *= scale;
+        verbatim += spectrum_line("sigma_a", absorption, *given);
+    }
     out.name = d.name.c_str();
     out.origin = import_.origin(verbatim);
     media_[d.name] = import_.out.medium(import_.out.ctx, &out);

@@ -103,6 +103,11 @@ void Builder::put_color(Values& values, const char* id, const Directive& d, cons
         values.texture(id, RESTAGE_COLOR, argument.texture);
     else
         values.color(id, argument.value);
+    if (!argument.texture) keep_spectrum(id, argument.value, import_.given_spectrum(d.params, name));
+}
+
+void Builder::keep_spectrum(const char* id, Rgb value, const std::optional<Spectrum>& spectrum) {
+    if (spectrum) exact_ += spectrum_line(id, value, *spectrum);
 }
 
 // A spectrum, a temperature or a colour of another space is written back unchanged, unless its value is edited.

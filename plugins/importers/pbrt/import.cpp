@@ -220,6 +220,16 @@ std::optional<Spectrum> Import::spectrum(const ParamList& params, std::string_vi
     return sampled;
 }
 
+std::optional<Spectrum> Import::given_spectrum(const ParamList& params, std::string_view name) {
+    const Param* param = params.has(name) ? params.find(name) : nullptr;
+    if (!param) return std::nullopt;
+    if (param->type == "blackbody" && !param->numbers.empty()) return blackbody(param->numbers[0]);
+    if (param->type != "spectrum") return std::nullopt;
+    if (!param->strings.empty())
+        if (auto glass = named_dispersion(param->strings[0])) return glass;
+    return spectrum(*param);
+}
+
 Rgb Import::limited(Rgb color, const Param& param, Role role) {
     const double top = role == Role::albedo ? 1 : 1e30;
     Rgb out_color{std::clamp(color.r, 0.0, top), std::clamp(color.g, 0.0, top), std::clamp(color.b, 0.0, top)};

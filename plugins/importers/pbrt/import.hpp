@@ -77,6 +77,8 @@ class Import {
     }
     // The spectrum of a parameter of type "spectrum"; nullopt if it is of another type, absent or unreadable.
     std::optional<Spectrum> spectrum(const ParamList& params, std::string_view name);
+    // What a parameter gives as a spectrum, a temperature or a glass; nullopt if it is RGB. Reports nothing new.
+    std::optional<Spectrum> given_spectrum(const ParamList& params, std::string_view name);
 
     // Of this format. `lines`: kept verbatim, except "=id text", the value `id` before it was reduced, and
     // "=* text", a line of the original thing. Lives as long as this.

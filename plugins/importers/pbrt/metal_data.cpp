@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Complex refractive indices of metals, 360 to 830 nm in steps of 10 nm, resampled from the tables pbrt-v4 ships under
 // its spectrum names, so that its scenes keep their look: Ag, Al, Au, Cu (Palik, Handbook of Optical Constants, 1985),
-// CuZn (brass; Querry 1985), MgO, TiO2. Indices of Schott glasses at the d line (587.56 nm), from the Schott catalogue.
+// CuZn (brass; Querry 1985), MgO, TiO2. Schott glasses from its catalogue: indices
+// at the d line (587.56 nm), and the coefficients of their dispersion.
 #include "spectrum_data.hpp"
+
+#include <cmath>
 
 namespace restage::pbrt {
 
@@ -97,13 +100,27 @@ const Named metals[] = {
     {"metal-TiO2-k", {tio2_k, 48, 360, 10}},
 };
 
-struct Glass { std::string_view name; float index; };
+// Sellmeier's formula, n^2 = 1 + sum of b l^2 / (l^2 - c), l in micrometres.
+struct Glass { std::string_view name; float index; double b[3], c[3]; };
 // pbrt-v4 files its SF5, SF10 and SF11 under F5, F10 and F11.
 const Glass glasses[] = {
-    {"glass-BK7", 1.5168f},   {"glass-BAF10", 1.6700f}, {"glass-FK51A", 1.4866f}, {"glass-LASF9", 1.8503f},
-    {"glass-F5", 1.6727f},    {"glass-F10", 1.7283f},   {"glass-F11", 1.7847f},   {"glass-SF5", 1.6727f},
-    {"glass-SF10", 1.7283f},  {"glass-SF11", 1.7847f},
+    {"glass-BK7", 1.5168f, {1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}},
+    {"glass-BAF10", 1.6700f, {1.5851495, 0.143559385, 1.08521269}, {0.00926681282, 0.0424489805, 105.613573}},
+    {"glass-FK51A", 1.4866f, {0.971247817, 0.216901417, 0.904651666}, {0.00472301995, 0.0153575612, 168.68133}},
+    {"glass-LASF9", 1.8503f, {2.00029547, 0.298926886, 1.80691843}, {0.0121426017, 0.0538736236, 156.530829}},
+    {"glass-SF5", 1.6727f, {1.52481889, 0.187085527, 1.42729015}, {0.011254756, 0.0588995392, 129.141675}},
+    {"glass-SF10", 1.7283f, {1.62153902, 0.256287842, 1.64447552}, {0.0122241457, 0.0595736775, 147.468793}},
+    {"glass-SF11", 1.7847f, {1.73759695, 0.313747346, 1.89878101}, {0.013188707, 0.0623068142, 155.23629}},
 };
+
+const Glass* find_glass(std::string_view name) {
+    for (const Glass& glass : glasses) {
+        const bool sf = glass.name.starts_with("glass-SF");
+        if (glass.name == name || (sf && name.starts_with("glass-F") && glass.name.substr(8) == name.substr(7)))
+            return &glass;
+    }
+    return nullptr;
+}
 
 } // namespace
 // clang-format on
@@ -116,9 +133,18 @@ Curve metal_curve(std::string_view name) {
 }
 
 float named_glass(std::string_view name) {
-    for (const Glass& glass : glasses)
-        if (glass.name == name) return glass.index;
-    return 0;
+    const Glass* glass = find_glass(name);
+    return glass ? glass->index : 0;
+}
+
+double glass_index(std::string_view name, double nm) {
+    const Glass* glass = find_glass(name);
+    if (!glass) return 0;
+    const double l2 = nm * nm * 1e-6;
+    double n2 = 1;
+    for (int i = 0; i < 3; ++i)
+        n2 += glass->b[i] * l2 / (l2 - glass->c[i]);
+    return std::sqrt(n2);
 }
 
 } // namespace restage::pbrt

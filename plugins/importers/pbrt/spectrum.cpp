@@ -96,6 +96,45 @@ std::optional<Spectrum> named_spectrum(std::string_view name) {
     return std::nullopt;
 }
 
+std::optional<Spectrum> named_dispersion(std::string_view name) {
+    if (!(named_glass(name) > 0)) return std::nullopt;
+    Spectrum out;
+    for (int nm = first_nm; nm <= last_nm; ++nm)
+        out[static_cast<std::size_t>(nm - first_nm)] = glass_index(name, nm);
+    return out;
+}
+
+std::string to_pairs(const Spectrum& s) {
+    std::string out;
+    const auto add = [&](std::size_t i) {
+        out += (out.empty() ? "" : " ") + std::to_string(first_nm + static_cast<int>(i)) + " " +
+               shortest(static_cast<double>(static_cast<float>(s[i])));
+    };
+    const auto straight = [&](std::size_t a, std::size_t b) {
+        for (std::size_t i = a + 1; i < b; ++i) {
+            const double t = static_cast<double>(i - a) / static_cast<double>(b - a);
+            if (std::abs((1 - t) * s[a] + t * s[b] - s[i]) > 1e-6 * (std::abs(s[a]) + std::abs(s[b]))) return false;
+        }
+        return true;
+    };
+    for (std::size_t a = 0; a + 1 < s.size();) {
+        add(a);
+        std::size_t b = a + 1;
+        while (b + 1 < s.size() && straight(a, b + 1))
+            ++b;
+        a = b;
+    }
+    add(s.size() - 1);
+    return out;
+}
+
+std::string spectrum_line(std::string_view id, Rgb value, const Spectrum& spectrum) {
+    std::string line = "=spectrum:" + std::string(id);
+    for (const double x : {value.r, value.g, value.b})
+        line += " " + shortest(static_cast<double>(static_cast<float>(x)));
+    return line + " " + to_pairs(spectrum) + "\n";
+}
+
 Spectrum blackbody(double kelvin) {
     Spectrum out{};
     if (!(kelvin > 0)) return out;

@@ -26,6 +26,12 @@ enum class Ends { zero, constant }; // beyond the samples: pbrt-v4's inline spec
 std::optional<Spectrum> from_pairs(const std::vector<double>& pairs, Ends ends);
 // pbrt-v4's names ("metal-Au-eta", "stdillum-D65", "glass-BK7"); nullopt if unknown.
 std::optional<Spectrum> named_spectrum(std::string_view name);
+// Of "glass-BK7" and others: their indices at all wavelengths. In RGB they have one, named_spectrum's, of the d line.
+std::optional<Spectrum> named_dispersion(std::string_view name);
+// "nm value nm value ...": the fewest pairs that are this spectrum, linear between them.
+std::string to_pairs(const Spectrum& spectrum);
+// "=spectrum:id r g b nm value ...": the origin of a value that has a spectrum (restage/scene_io.h).
+std::string spectrum_line(std::string_view id, Rgb value, const Spectrum& spectrum);
 Spectrum blackbody(double kelvin); // Planck's law, its peak over all wavelengths = 1
 
 // XYZ of an emitter, divided by the integral of y-bar: a constant spectrum of 1 has Y = 1.

@@ -19,5 +19,6 @@ Curve cie_z();
 Curve named_curve(std::string_view name);
 // "glass-BK7": refractive index at the sodium d line, 587.56 nm; 0 if there is none.
 float named_glass(std::string_view name);
+double glass_index(std::string_view name, double nm); // likewise at a wavelength
 
 } // namespace restage::pbrt

@@ -25,31 +25,18 @@ bool is_black(vec3 c) { return c == vec3(0); }
 
 #ifdef RESTAGE_SPECTRAL
 
-// A placeholder until there is a spectral renderer: every path uses these wavelengths, and the three primaries
-// are curves that sum to 1 everywhere. Code that uses the functions above will not have to change.
 #define Spectrum vec4
 
-Spectrum wavelengths() { return Spectrum(450.0, 520.0, 580.0, 640.0); }
+// Private to the host: the hero wavelength first, the others spread over the visible range (Wilkie et al. 2014).
+Spectrum host_wavelengths = Spectrum(450.0, 520.0, 580.0, 640.0);
+Spectrum wavelengths() { return host_wavelengths; }
 
-void spectrum_primaries(out Spectrum r, out Spectrum g, out Spectrum b) {
-    Spectrum l = wavelengths();
-    b = 1.0 - smoothstep(Spectrum(460.0), Spectrum(510.0), l);
-    r = smoothstep(Spectrum(560.0), Spectrum(610.0), l);
-    g = 1.0 - r - b;
-}
-Spectrum spectrum_from_rgb_unbounded(vec3 c) {
-    Spectrum r, g, b;
-    spectrum_primaries(r, g, b);
-    return c.x * r + c.y * g + c.z * b;
-}
-Spectrum spectrum_from_rgb(vec3 c) { return spectrum_from_rgb_unbounded(c); }
-vec3 rgb_from_spectrum(Spectrum s) {
-    Spectrum r, g, b;
-    spectrum_primaries(r, g, b);
-    const Spectrum one = Spectrum(1);
-    return vec3(dot(s, r) / dot(one, r), dot(s, g) / dot(one, g), dot(s, b) / dot(one, b));
-}
-float luminance(Spectrum s) { return luminance(rgb_from_spectrum(s)); }
+// lib/spectral.glsl, after the plugin's code. rgb_from_spectrum is exact only on average over paths.
+Spectrum spectrum_from_rgb(vec3 c);
+Spectrum spectrum_from_rgb_unbounded(vec3 c);
+vec3 rgb_from_spectrum(Spectrum s);
+
+float luminance(Spectrum s) { return dot(s, Spectrum(0.25)); } // wavelengths are drawn roughly as the eye responds
 float max_component(Spectrum s) { return max(max(s.x, s.y), max(s.z, s.w)); }
 float min_component(Spectrum s) { return min(min(s.x, s.y), min(s.z, s.w)); }
 float average(Spectrum s) { return dot(s, Spectrum(0.25)); }
