@@ -165,6 +165,8 @@ glm::dvec3 white_rgb_at(double nm) {
                       (cie::at(cie::d65, nm) / luminance));
 }
 
+double d65_at(double nm) { return cie::at(cie::d65, nm); }
+
 double luminance_of(const std::vector<float>& relative) {
     double sum = 0, white = 0;
     for (std::size_t i = 0; i < relative.size(); ++i) {

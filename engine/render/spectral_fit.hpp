@@ -17,6 +17,7 @@ double smooth_spectrum(const glm::dvec3& c, double nm);
 glm::dvec3 rgb_of_xyz(const glm::dvec3& xyz); // D65 as tabulated is exactly white
 // Of white light (D65) of luminance 1, per nm: its integral over the visible range is (1, 1, 1).
 glm::dvec3 white_rgb_at(double nm);
+double d65_at(double nm); // in the table's own unit
 // Luminance of light given relative to D65, at 360, 361, ... 830 nm; 1 everywhere has luminance 1.
 double luminance_of(const std::vector<float>& relative);
 

@@ -245,7 +245,11 @@ void bind_film(nb::class_<Workspace>& c) {
         .def_prop_rw(
             "max_depth", [](Workspace& w) { return w.scene().settings.value.max_depth; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.max_depth = n; }); },
-            "Longest path: vertices beyond the camera, as in pbrt.");
+            "Longest path: vertices beyond the camera, as in pbrt.")
+        .def_prop_rw(
+            "spectral", [](Workspace& w) { return w.scene().settings.value.spectral; },
+            [settings](Workspace& w, bool on) { settings(w, [&](Settings& s) { s.spectral = on; }); },
+            "Whether paths carry wavelengths instead of RGB: exact saturated colours and metals, dispersion.");
 }
 
 void bind_contents(nb::class_<Workspace>& c) {

@@ -291,9 +291,9 @@ def test_undo_leads_back_and_redo_forward(demo, tmp_path):
 
 
 def test_size_exposure_and_settings_are_edits(demo):
-    demo.size, demo.exposure, demo.samples, demo.max_depth = (64, 48), 2.0, 4, 3
-    assert (demo.size, demo.exposure, demo.samples, demo.max_depth) == ((64, 48), 2.0, 4, 3)
-    for _ in range(4):
+    demo.size, demo.exposure, demo.samples, demo.max_depth, demo.spectral = (64, 48), 2.0, 4, 3, True
+    assert (demo.size, demo.exposure, demo.samples, demo.max_depth, demo.spectral) == ((64, 48), 2.0, 4, 3, True)
+    for _ in range(5):
         demo.undo()
     assert demo.size != (64, 48) and demo.exposure != 2.0
     assert demo.up == (0, 0, 1) and demo.bounds.shape == (2, 3) and demo.format == "pbrt-v4"

@@ -164,6 +164,9 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         const bool roulette = h.scene().settings.value.russian_roulette;
         h.click(ctx, "render.roulette");
         IM_CHECK(h.scene().settings.value.russian_roulette != roulette);
+        IM_CHECK(!h.scene().settings.value.spectral);
+        h.click(ctx, "render.spectral");
+        IM_CHECK(h.scene().settings.value.spectral);
         const std::size_t before = h.step(); // settings of this machine are not steps
         h.drag(ctx, "render.error");
         IM_CHECK(h.editor().view.error > 0);
