@@ -33,9 +33,10 @@ inline std::string spectrum(const model::Param& p, const std::string& rgb) {
 inline std::string read_value(const model::Param& p, std::uint32_t at) {
     switch (p.type) {
         case model::ParamType::color:
-            return fmt::format("stored_spectrum(vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
-                               "uintBitsToFloat(w.at[at + {}])))",
-                               at, at + 1, at + 2);
+            return fmt::format(
+                "stored_spectrum(vec3(uintBitsToFloat(w.at[at + {}]), uintBitsToFloat(w.at[at + {}]), "
+                "uintBitsToFloat(w.at[at + {}])))",
+                at, at + 1, at + 2);
         case model::ParamType::number:
             return fmt::format("stored_number(w.at[at + {}])", at);
         case model::ParamType::boolean:

@@ -368,8 +368,8 @@ std::size_t GpuScene::uploaded_bytes() const {
            programs_.uploaded_bytes() + texture_words_.uploaded_bytes() + images_.uploaded_bytes() +
            lights_.uploaded_bytes() + light_cdf_.uploaded_bytes() + light_nodes_.uploaded_bytes() +
            media_.uploaded_bytes() + env_texels_.uploaded_bytes() + env_rows_.uploaded_bytes() +
-           env_columns_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() + color_cells_.uploaded_bytes() +
-           color_film_.uploaded_bytes() + curve_entries_.uploaded_bytes() +
+           env_columns_.uploaded_bytes() + filter_.uploaded_bytes() + scene_data_.uploaded_bytes() +
+           color_cells_.uploaded_bytes() + color_film_.uploaded_bytes() + curve_entries_.uploaded_bytes() +
            tables_.uploaded_bytes();
 }
 

@@ -79,8 +79,8 @@ Result<void> GpuScene::sync_materials(const Scene& scene, SceneChanges& changes)
     std::vector<std::optional<scene::MaterialEmission>> emission(records.size());
     reads_files_ = false;
     tables_.begin();
-    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, const scene::Origin& origin, std::uint32_t type,
-                          std::span<const DeviceTable> tables = {}) {
+    const auto pack = [&](shared::MaterialData& record, const scene::ParamSet& params, const scene::Origin& origin,
+                          std::uint32_t type, std::span<const DeviceTable> tables = {}) {
         record.type = type;
         const auto store = value_store(origin, types_[type].curves);
         glm::vec3 color = stand_in_color(*types_[type].plugin.table, params);
@@ -183,8 +183,7 @@ std::optional<scene::MaterialEmission> GpuScene::emission_of(const Scene& scene,
 
 // At points spread over the triangle: the Kronecker lattice of the plastic number (Roberts 2018). Parts
 // removed by alpha do not emit.
-double GpuScene::mean_emission(std::uint32_t id, const glm::vec3& radiance, std::uint32_t triangle,
-                               int points) const {
+double GpuScene::mean_emission(std::uint32_t id, const glm::vec3& radiance, std::uint32_t triangle, int points) const {
     const auto& instance = instances_[id];
     const auto& mesh = *mesh_data_[mesh_of_[id].value];
     double sum = 0;
@@ -225,7 +224,8 @@ shared::InstanceData GpuScene::make_instance(const Scene& scene, std::uint32_t i
     if (const auto emission = emission_of(scene, in)) {
         out.flags |= INSTANCE_EMITS | (emission->two_sided ? INSTANCE_TWO_SIDED : 0);
         out.emission_texture = scene.textures.find(emission->texture) ? emission->texture.value : 0;
-        out.emission = out.emission_texture ? emission->radiance : stored_light(in.origin, "emission", emission->radiance);
+        out.emission =
+            out.emission_texture ? emission->radiance : stored_light(in.origin, "emission", emission->radiance);
     }
     if (in.media) {
         out.flags |= INSTANCE_HAS_MEDIA;
@@ -460,7 +460,8 @@ void set_camera(const Scene& scene, const glm::dvec3& origin, shared::CameraData
 Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool colors) {
     if (first_ || colors || scene.media.version() != seen_.media) {
         std::vector<shared::MediumData> media(scene.media.size() + 1);
-        scene.media.each([&](Id<scene::Medium> id, const scene::Medium& m) { media[id.value].sigma_a = stored_absorption(m); });
+        scene.media.each(
+            [&](Id<scene::Medium> id, const scene::Medium& m) { media[id.value].sigma_a = stored_absorption(m); });
         media_.assign(std::move(media));
         RESTAGE_CHECK(media_.flush(*device_));
     }
@@ -481,8 +482,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
         rotation /= std::max(std::cbrt(std::abs(glm::determinant(rotation))), 1e-300);
         d.environment.world_from_env = glm::mat3(rotation);
         d.environment.env_from_world = glm::mat3(glm::inverse(rotation));
-        d.environment.scale =
-            environment_.texels.empty() ? stored_light(env->origin, "scale", env->scale) : env->scale;
+        d.environment.scale = environment_.texels.empty() ? stored_light(env->origin, "scale", env->scale) : env->scale;
         d.environment.hidden = env->hidden_from_camera;
         d.environment.mapping = environment_.texels.empty()                  ? ENV_CONSTANT
                                 : env->mapping == scene::Mapping::octahedral ? ENV_OCTAHEDRAL

@@ -15,7 +15,8 @@ namespace restage::render {
 //     default, whether it is visible or not;
 //   - so has every texel of images that textures or the environment use;
 //   - nothing has a measured spectrum (SpectralCurves), and no material has a table or is read from one;
-//   - no GLSL of its materials' or textures' plugins asks for wavelengths, converts RGB, or uses a thin film. Textures of
+//   - no GLSL of its materials' or textures' plugins asks for wavelengths, converts RGB, or uses a thin film. Textures
+//   of
 //     an image may convert its colour.
 class GreyTest {
   public:

@@ -50,8 +50,7 @@ void pack_value(const model::Param& line, const scene::ParamSet& params, std::ve
             break;
         }
         case model::ParamType::number:
-            words.push_back(store ? store->number(line, value.scalar())
-                                  : std::bit_cast<std::uint32_t>(value.scalar()));
+            words.push_back(store ? store->number(line, value.scalar()) : std::bit_cast<std::uint32_t>(value.scalar()));
             break;
         case model::ParamType::table:
             words.push_back(std::uint32_t(table.address));

@@ -207,9 +207,8 @@ class VulkanTracer final : public Tracer {
         std::size_t stand_in = 0; // index of its shader; 0: none yet
         const auto add_stand_in = [&] {
             if (!stand_in)
-                stand_in =
-                    shader(compose_stand_in(types[placeholder], "trace_material.glsl", gpu::ShaderStage::callable,
-                                           color_mode(scene.features())));
+                stand_in = shader(compose_stand_in(types[placeholder], "trace_material.glsl",
+                                                   gpu::ShaderStage::callable, color_mode(scene.features())));
             r.callables.push_back(stand_in);
             r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy));
         };
@@ -240,7 +239,8 @@ class VulkanTracer final : public Tracer {
         wanted_ = store_.want("path tracer", std::move(made));
         wanted_types_.clear();
         for (const auto& type : scene.types())
-            wanted_types_.push_back(type.type + word_layout(type.plugin.table) + (scene.features().spectral ? "s" : ""));
+            wanted_types_.push_back(type.type + word_layout(type.plugin.table) +
+                                    (scene.features().spectral ? "s" : ""));
         shown_ = false;
         if (wanted_->pipeline) arrive();
         return {};

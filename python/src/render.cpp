@@ -112,9 +112,8 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
                                 std::optional<std::uint32_t> samples, std::optional<double> seconds,
                                 std::optional<double> error, std::uint32_t seed, const nb::object& denoised,
                                 const nb::object& callback, unsigned threads, std::optional<std::uint32_t> max_depth,
-                                std::optional<bool> spectral,
-                                std::uint32_t first_sample, const std::string& tracer, const std::string& device,
-                                const std::string& denoiser, bool reference) {
+                                std::optional<bool> spectral, std::uint32_t first_sample, const std::string& tracer,
+                                const std::string& device, const std::string& denoiser, bool reference) {
     if (int(samples.has_value()) + int(seconds.has_value()) + int(error.has_value()) > 1)
         throw Failure("render: give one of samples, seconds and error");
     if ((samples && *samples == 0) || (seconds && !(*seconds > 0)) || (error && !(*error > 0)))

@@ -6,8 +6,8 @@
 //         (Jakob and Hanika 2019, "A Low-Dimensional Function Space for Efficient Spectral Upsampling"),
 //         or CURVE_BIT in the second word and in the first the index of a measured spectrum;
 //   one   a float, by which the spectrum is multiplied.
-// Light is carried relative to the standard illuminant D65, with which the film's weights are multiplied once; so an RGB
-// light is a spectrum like an absorption coefficient.
+// Light is carried relative to the standard illuminant D65, with which the film's weights are multiplied once; so an
+// RGB light is a spectrum like an absorption coefficient.
 #ifndef RESTAGE_SHARED_SPECTRAL_H
 #define RESTAGE_SHARED_SPECTRAL_H
 #include "shared/functions.h"
@@ -24,8 +24,8 @@ RESTAGE_CONSTANTS_END
 
 RESTAGE_SHARED_BEGIN
 
-// The wavelength [nm] that a number in [0, 1) chooses, with density 0.0039398042 / cosh^2(0.0072 (nm - 538)). Radziszewski
-// et al. 2009, "An Improved Technique for Full Spectral Rendering"; constants of pbrt 4ed, 4.5.4.
+// The wavelength [nm] that a number in [0, 1) chooses, with density 0.0039398042 / cosh^2(0.0072 (nm - 538)).
+// Radziszewski et al. 2009, "An Improved Technique for Full Spectral Rendering"; constants of pbrt 4ed, 4.5.4.
 RESTAGE_INLINE float visible_wavelength(float u) {
     float x = 0.85691062f - 1.82750197f * u;
     return 538.0f - 69.4444445f * log((1.0f + x) / (1.0f - x));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spectral mode: colours as smooth spectra, the choice of wavelengths, measured spectra, dispersion.
+#include "shared/spectral.h"
 #include "render/checks.hpp"
 #include "render/kernel_lab.hpp"
 #include "render/spectral_colors.hpp"
 #include "render/spectral_fit.hpp"
-#include "shared/spectral.h"
 
 #include <catch2/generators/catch_generators.hpp>
 
@@ -119,7 +119,8 @@ TEST_CASE("spectral: shaders and C++ agree on the spectrum of a colour") {
 TEST_CASE("spectral: wavelengths have the density of the film's weights") {
     for (const double u : {0.01, 0.3, 0.5, 0.77, 0.99}) {
         const double h = 1e-3, nm = double(shared::visible_wavelength(float(u)));
-        const double slope = double(shared::visible_wavelength(float(u + h)) - shared::visible_wavelength(float(u - h)));
+        const double slope =
+            double(shared::visible_wavelength(float(u + h)) - shared::visible_wavelength(float(u - h)));
         const double pdf = 0.0039398042 / std::pow(std::cosh(0.0072 * (nm - 538)), 2);
         CHECK(std::abs(slope / (2 * h) * pdf - 1) < 2e-3);
     }
@@ -155,9 +156,10 @@ TEST_CASE("spectral: a prism of SF11 splits light by Snell's law") {
     material.origin.values.push_back(spectrum_of("eta", glm::vec3(index), sf11));
     b.scene.materials.set(glass, material, ++b.scene.clock);
     const auto x = float(2 * std::tan(half));
-    b.instance(b.mesh({.positions = {{0, 1, -1}, {-x, -1, -1}, {x, -1, -1}, {0, 1, 1}, {-x, -1, 1}, {x, -1, 1}},
-                       .triangles = {{0, 4, 3}, {0, 1, 4}, {0, 5, 2}, {0, 3, 5}, {1, 5, 4}, {1, 2, 5}, {0, 2, 1}, {3, 4, 5}}}),
-               glass);
+    b.instance(
+        b.mesh({.positions = {{0, 1, -1}, {-x, -1, -1}, {x, -1, -1}, {0, 1, 1}, {-x, -1, 1}, {x, -1, 1}},
+                .triangles = {{0, 4, 3}, {0, 1, 4}, {0, 5, 2}, {0, 3, 5}, {1, 5, 4}, {1, 2, 5}, {0, 2, 1}, {3, 4, 5}}}),
+        glass);
     // grey, and rising with the angle at which light leaves: 0 at 30 degrees, 1 at 60
     std::vector<float> sky;
     for (int row = 0; row < 8; ++row)

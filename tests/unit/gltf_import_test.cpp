@@ -126,7 +126,11 @@ TEST_CASE("gltf: material extensions reach the principled material", "[gltf]") {
     CHECK(p.number("iridescence", -1) == Approx(0.75));
     CHECK(p.number("iridescence_ior", -1) == Approx(1.8));
     CHECK(p.number("iridescence_thickness", -1) == Approx(550)); // without a texture the maximum applies
-    CHECK(says(in, io::Fate::dropped, "a.gltf", "KHR_materials_dispersion"));
+    const auto& values = in.scene.materials[i.material].origin.values; // for spectral rendering
+    REQUIRE(values.size() == 1);
+    CHECK(values[0].id == "spectrum:ior");
+    CHECK(values[0].text.starts_with("1.250000 1.250000 1.250000 360 1.25"));
+    CHECK(!says(in, io::Fate::dropped, "a.gltf", "KHR_materials_dispersion"));
     CHECK_FALSE(says(in, io::Fate::dropped, "a.gltf", "sheen"));
 }
 

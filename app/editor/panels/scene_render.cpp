@@ -39,9 +39,10 @@ void scene_rows(EditContext& e) {
              "Ends paths that carry little light at random, and compensates: faster, unbiased (Russian roulette)");
     changed |= ImGui::Checkbox("##roulette", &settings.russian_roulette);
     e.mark("render.roulette");
-    form_row("Wavelengths",
-             "Traces four wavelengths a path instead of RGB: saturated colours and measured metals are exact, and glass "
-             "with measured indices splits light (spectral rendering)");
+    form_row(
+        "Wavelengths",
+        "Traces four wavelengths a path instead of RGB: saturated colours and measured metals are exact, and glass "
+        "with measured indices splits light (spectral rendering)");
     changed |= ImGui::Checkbox("##spectral", &settings.spectral);
     e.mark("render.spectral");
     const auto clamp_row = [&](const char* label, const char* tooltip, float& v, const char* mark) {

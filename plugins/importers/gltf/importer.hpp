@@ -44,12 +44,15 @@ struct VertexColor {
     auto key() const { return std::tuple(factor, alpha, image, alpha_image, set); }
 };
 
+std::string dispersed_index(double ior, double dispersion); // text of an origin's "spectrum:ior"
+
 struct MadeMaterial { // a material, and the part of it that the scene stores per instance
     std::string name;
     RestageHandle material = 0, alpha_texture = 0, interior = 0;
     float alpha = 1;
     bool has_interior = false, two_sided = false;
     bool needs_tangents = false;
+    double ior = 1.5, dispersion = 0; // 20 / its Abbe number
     TextureUse normal; // the normal map, if any
     Rgb emission{}; // of the instances; an emissive picture is the material's
     UvSets uv;

@@ -101,6 +101,20 @@ void Importer::clear_coat(const tinygltf::Material& m, const tinygltf::Value& v,
                                    std::to_string(below) + ", the normal map below it");
 }
 
+// KHR_materials_dispersion: Cauchy's formula n = a + b / l^2 through the index at the d line, and an Abbe number of
+// 20 / dispersion. For spectral rendering: the spectrum of the parameter `ior`; see docs/plugins.md.
+std::string dispersed_index(double ior, double dispersion) {
+    constexpr double d = 587.6, f = 486.1, c = 656.3; // lines [nm]
+    const double b = (ior - 1) * dispersion / 20 / (1 / (f * f) - 1 / (c * c));
+    const float stored = static_cast<float>(ior);
+    std::string text;
+    for (int i = 0; i < 3; ++i)
+        text += std::to_string(stored) + " ";
+    for (int nm = 360; nm <= 830; nm += 10)
+        text += std::to_string(nm) + " " + std::to_string(ior + b * (1.0 / (nm * nm) - 1 / (d * d))) + " ";
+    return text;
+}
+
 void Importer::extensions(const tinygltf::Material& m, const BaseColor& base, MadeMaterial& made, Values& values) {
     const std::string what = "material " + quote(m.name);
     bool transmits = false;
@@ -109,7 +123,8 @@ void Importer::extensions(const tinygltf::Material& m, const BaseColor& base, Ma
             const double ior = number_of(v, "ior", 1.5);
             if (ior < 1 || ior > 3)
                 report_.approximated(what + ": ior " + std::to_string(ior), "indices from 1 to 3 are rendered");
-            values.number("ior", std::clamp(ior, 1.0, 3.0));
+            made.ior = std::clamp(ior, 1.0, 3.0);
+            values.number("ior", made.ior);
         } else if (name == "KHR_materials_specular") {
             const Rgb color = color_of(v, "specularColorFactor", {1, 1, 1});
             if (const double most = std::max({color[0], color[1], color[2]}); most > 25)
@@ -135,8 +150,9 @@ void Importer::extensions(const tinygltf::Material& m, const BaseColor& base, Ma
             anisotropy(v, what, made, values);
         } else if (name == "KHR_materials_iridescence") {
             iridescence(v, made, values);
-        } else if (name == "KHR_materials_dispersion" || name == "KHR_materials_diffuse_transmission" ||
-                   name == "KHR_materials_variants") {
+        } else if (name == "KHR_materials_dispersion") {
+            made.dispersion = number_of(v, "dispersion", 0);
+        } else if (name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_variants") {
             report_.dropped(what + ": " + name, "not rendered");
         } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit" &&
                    name != "KHR_materials_emissive_strength") {

@@ -240,8 +240,14 @@ MadeMaterial Importer::make_material(int index, const VertexColor& color) {
         emission(m, made, values);
         extensions(m, base, made, values);
     }
-    const RestageMaterialDesc desc = {
-        .name = m.name.c_str(), .type = type, .values = values.data(), .value_count = values.size()};
+    const std::string indices = made.dispersion > 0 ? dispersed_index(made.ior, made.dispersion) : "";
+    const RestageOriginValue index = {.id = "spectrum:ior", .text = indices.c_str()};
+    const RestageOrigin origin = {.value_count = 1, .format = "gltf", .verbatim = "", .values = &index};
+    const RestageMaterialDesc desc = {.name = m.name.c_str(),
+                                      .origin = made.dispersion > 0 ? &origin : nullptr,
+                                      .type = type,
+                                      .values = values.data(),
+                                      .value_count = values.size()};
     made.material = out_.material(out_.ctx, &desc);
     return made;
 }

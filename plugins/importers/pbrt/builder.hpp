@@ -81,7 +81,7 @@ class Builder {
     void put_float(Values& values, const char* id, const Directive& d, const char* name, double otherwise);
     void put_color(Values& values, const char* id, const Directive& d, const char* name, Role role, Rgb otherwise);
     void keep_exact(const char* id, const Directive& d, const char* name);
-    // For spectral rendering: the spectrum of a value that RGB or a number stand for; see restage/scene_io.h.
+    // For spectral rendering: the spectrum of a value that RGB or a number stand for; see docs/plugins.md.
     void keep_spectrum(const char* id, Rgb value, const std::optional<Spectrum>& spectrum);
     RestageHandle find_texture(const Directive& directive, const char* name, bool is_float);
     std::optional<Rgb> constant_of(RestageHandle texture) const; // of a texture that is one colour everywhere

@@ -30,7 +30,7 @@ std::optional<Spectrum> named_spectrum(std::string_view name);
 std::optional<Spectrum> named_dispersion(std::string_view name);
 // "nm value nm value ...": the fewest pairs that are this spectrum, linear between them.
 std::string to_pairs(const Spectrum& spectrum);
-// "=spectrum:id r g b nm value ...": the origin of a value that has a spectrum (restage/scene_io.h).
+// "=spectrum:id r g b nm value ...": the origin of a value that has a spectrum (docs/plugins.md).
 std::string spectrum_line(std::string_view id, Rgb value, const Spectrum& spectrum);
 Spectrum blackbody(double kelvin); // Planck's law, its peak over all wavelengths = 1
 
