@@ -58,8 +58,14 @@ Result<int> run(const std::vector<std::string>& arguments) {
 
 void add_bench(CLI::App& program, Context& context) {
     auto* command = program.add_subcommand(
-        "bench", "Chart error against samples and time, of configurations and of other renderers");
-    command->fallthrough(false)->prefix_command()->set_help_flag(); // all arguments are the package's
+        "bench", "Chart error against samples and time, of configurations and of other renderers; needs Python");
+    command->fallthrough(false)->prefix_command(); // its arguments are the package's
+    add_example(
+        *command,
+        "restage bench room.pbrt -o page --mitsuba python3\n"
+        "Arguments (`python3 -m restage.bench --help` explains them): SCENE..., -o FOLDER, --rows FILE, --size WxH, "
+        "--samples N..., --seeds N, --reference PFM..., --reference-spp N, --reference-parts N, --target ERROR, "
+        "--mitsuba PYTHON, --cycles PYTHON, --pbrt BINARY, --growth [KIND...], --budget SECONDS");
     command->callback(
         [&context, command] { context.choose([arguments = command->remaining()] { return run(arguments); }); });
 }
