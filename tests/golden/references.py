@@ -3,7 +3,7 @@
 """Renders the reference scenes and holds them against pbrt-v4's pictures: means, z-test, one line a scene.
 
 Scenes come from RESTAGE_SCENES, references (two independent halves each) from RESTAGE_REFERENCES.
-    references.py [--spp 256] [--out DIR] [--v3] [SCENE ...]
+    references.py [--spp 256] [--out DIR] [--v3] [--spectral] [SCENE ...]
 Writes DIR/<scene>.exr, .z.png, .diff.png and DIR/references.json. Exit code 1 when a scene fails to render.
 """
 import argparse
@@ -37,6 +37,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/references")
     parser.add_argument("--v3", action="store_true", help="render scene-v3.pbrt where there is one")
     parser.add_argument("--tracer", default="embree")
+    parser.add_argument("--spectral", action="store_true")
     args = parser.parse_args()
     scenes, references = (pathlib.Path(os.environ[v]) for v in ("RESTAGE_SCENES", "RESTAGE_REFERENCES"))
     names = args.scenes or sorted(p.name[:-6] for p in references.glob("*.1.exr"))
@@ -51,7 +52,7 @@ def main():
         w, h = exr_size(halves[0])
         out = args.out / (name + ("-v3" if args.v3 else ""))
         render = run([args.restage, "render", scene, "-o", f"{out}.exr", "--spp", args.spp, "--size", f"{w}x{h}",
-                      "--tracer", args.tracer])
+                      "--tracer", args.tracer, *(["--spectral"] if args.spectral else [])])
         if render.returncode:
             print(f"{name:18} {render.stderr.strip().splitlines()[-1]}")
             failed += 1

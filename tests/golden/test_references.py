@@ -43,6 +43,14 @@ def test_scene_against_its_reference(name, tmp_path, monkeypatch):
         assert 100 * row["z_test"]["share_passing"] > blocks
 
 
+# Mean of each channel [%] and percentage of blocks, at 64 samples; docs/accuracy.md has 256.
+@pytest.mark.parametrize("name", ["coffee", "cornell-box", "material-testball"])
+def test_spectral_scene_against_its_reference(name, tmp_path, monkeypatch):
+    row = table(tmp_path, monkeypatch, [name], "--spp", "64", "--spectral")[name]
+    assert max(abs(x) for x in row["channel_percent"]) < 0.8
+    assert 100 * row["z_test"]["share_passing"] > 96.0
+
+
 @pytest.mark.parametrize("name", V3)
 def test_v3_file_agrees_with_v4(name, tmp_path, monkeypatch):
     assert (pathlib.Path(os.environ["RESTAGE_SCENES"]) / name / "scene-v3.pbrt").exists()
