@@ -94,7 +94,8 @@ def lights():
     dark = FLOOR + sky(0.02)
     yield "lamp in glass", dark + within("Translate 0 0 1", lamp((9, 7, 4), 'Shape "sphere" "float radius" 0.3\n') + glass(1.5) +
                                          'Shape "sphere" "float radius" 0.9\n'), {}
-    wall = within("Translate 0 1 0\nRotate -90 1 0 0", "Translate 0 -1 0\n" + wall_with_hole(0.15, 0, 5).replace('"rgb reflectance" [ 0.0 0.0 0.0 ]', '"rgb reflectance" [ .6 .6 .6 ]'))
+    grey = wall_with_hole(0.15, 0, 5).replace("[ 0.0 0.0 0.0 ]", "[ .6 .6 .6 ]")
+    wall = within("Translate 0 1 0\nRotate -90 1 0 0", "Translate 0 -1 0\n" + grey)
     yield "keyhole", FLOOR + wall + lamp(900, within("Translate 0 3 1.4\nRotate 90 1 0 0", square(0.4))), {}
     mirror = within("Translate 0 2 1.5\nRotate 90 1 0 0", METAL.format(0) + square(1.2))
     screen = within("Translate 0 -0.2 0.8\nRotate 90 1 0 0", diffuse(.1) + square(0.4))

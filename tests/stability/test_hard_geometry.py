@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from stage import (diffuse, distant, fresnel, glass, lamp, mesh, numbers, rectangle, room, sky, square, stack_transmittance,
+from stage import (diffuse, distant, fresnel, glass, lamp, mesh, numbers, room, sky, square, stack_transmittance,
                    within, write_ply)
 
 LIGHT = distant(math.pi, (0.3, 0.2, 1))

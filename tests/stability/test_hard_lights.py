@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from stage import diffuse, fresnel, lamp, mesh, point, rectangle, rectangle_form, sky, square, within
+from stage import diffuse, fresnel, lamp, mesh, point, rectangle, rectangle_form, square, within
 
 RECEIVER = diffuse(0.5) + square(0.05)
 LOOK = {"size": (16, 16), "eye": (0, 0, 0.5)}

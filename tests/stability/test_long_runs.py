@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A million samples without drift; and what does not change a picture: threads, order and batches."""
-import math
-
 import numpy as np
-import pytest
-from stage import diffuse, distant, glass, lamp, rectangle_form, sky, square, within
+from stage import diffuse, glass, lamp, rectangle_form, sky, square, within
 
 import restage
 
