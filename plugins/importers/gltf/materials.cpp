@@ -241,8 +241,8 @@ MadeMaterial Importer::make_material(int index, const VertexColor& color) {
         extensions(m, base, made, values);
     }
     const std::string indices = made.dispersion > 0 ? dispersed_index(made.ior, made.dispersion) : "";
-    const RestageOriginValue index = {.id = "spectrum:ior", .text = indices.c_str()};
-    const RestageOrigin origin = {.value_count = 1, .format = "gltf", .verbatim = "", .values = &index};
+    const RestageOriginValue spectrum = {.id = "spectrum:ior", .text = indices.c_str()};
+    const RestageOrigin origin = {.value_count = 1, .format = "", .verbatim = "", .values = &spectrum};
     const RestageMaterialDesc desc = {.name = m.name.c_str(),
                                       .origin = made.dispersion > 0 ? &origin : nullptr,
                                       .type = type,
