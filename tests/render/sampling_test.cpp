@@ -114,10 +114,12 @@ TEST_CASE("sampler: each use of a pair has one of its own, at every depth") {
     std::vector<std::uint32_t> asked;
     for (std::uint32_t i = 0; i < 2 + 4 * depths; ++i)
         asked.push_back(i);
+    asked.push_back(~0u); // the wavelengths
     auto pairs = lab().run<std::uint32_t, std::uint32_t>(
         "#include \"lib/sampler.glsl\"", "uint", "uint",
         "uint d = (x - 2u) / 4u, k = (x - 2u) % 4u;"
-        "result = x == 0u ? PAIR_FILTER : x == 1u ? PAIR_LENS : k == 0u ? pair_light_pick(d) : k == 1u ? pair_light(d)"
+        "result = x == ~0u ? PAIR_WAVELENGTHS : x == 0u ? PAIR_FILTER : x == 1u ? PAIR_LENS : k == 0u ? "
+        "pair_light_pick(d) : k == 1u ? pair_light(d)"
         "       : k == 2u ? pair_bsdf(d) : pair_lobe(d);",
         asked);
     std::sort(pairs.begin(), pairs.end());
