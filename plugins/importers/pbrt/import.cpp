@@ -216,7 +216,9 @@ std::optional<Spectrum> Import::spectrum(const ParamList& params, std::string_vi
     const Param* param = params.has(name) ? params.find(name) : nullptr;
     if (!param || param->type != "spectrum") return std::nullopt;
     const auto sampled = spectrum(*param);
-    if (sampled) approximated(param->at, "spectra", "the renderer works in RGB: they are reduced to linear sRGB");
+    if (sampled)
+        approximated(param->at, "spectra",
+                     "reduced to linear sRGB; with --spectral those of materials, lights and media stay spectra");
     return sampled;
 }
 
@@ -283,7 +285,8 @@ std::optional<Rgb> Import::color(const ParamList& params, std::string_view name,
     if (param->type == "spectrum") {
         const auto sampled = spectrum(*param);
         if (!sampled) return std::nullopt;
-        approximated(param->at, "spectra", "the renderer works in RGB: they are reduced to linear sRGB");
+        approximated(param->at, "spectra",
+                     "reduced to linear sRGB; with --spectral those of materials, lights and media stay spectra");
         if (v3()) return limited(rgb_equal_energy(*sampled), *param, role == Role::albedo ? Role::unbounded : role);
         return limited(role == Role::light ? rgb_of_light(*sampled) : rgb_of_reflectance(*sampled), *param, role);
     }
