@@ -158,6 +158,7 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
     h.play("rendering", [&](ImGuiTestContext* ctx) {
         h.click(ctx, "scene.render");
         drags_are_steps(h, ctx, {"render.samples", "render.depth", "render.clamp_direct", "render.clamp_indirect"});
+        h.drag(ctx, "render.clamp_direct");
         IM_CHECK(h.scene().settings.value.clamp_direct > 0);
         h.click(ctx, "render.reference");
         IM_CHECK(h.scene().settings.value.clamp_direct == 0 && h.scene().settings.value.clamp_indirect == 0);

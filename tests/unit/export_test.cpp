@@ -281,5 +281,5 @@ TEST_CASE("a failed export leaves the old files", "[export]") {
     CHECK_THAT(io::export_scene(made.scene, folder.file("no/such/s.pbrt"), plugins.registry).error().message,
                ContainsSubstring("there is no folder"));
     CHECK_THAT(io::export_scene(made.scene, folder.file("s.blend"), plugins.registry).error().message,
-               ContainsSubstring("no exporter writes files called .blend; known: pbrt"));
+               ContainsSubstring("no exporter writes files called .blend; known: mitsuba, pbrt"));
 }
