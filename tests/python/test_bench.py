@@ -4,6 +4,7 @@ import html.parser
 import json
 import math
 import os
+import pathlib
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -203,3 +204,10 @@ def test_peers(program, tmp_path, kind, options):
     ours, theirs = json.loads((tmp_path / "page/bench.json").read_text())["scenes"]["cornell"]["configurations"]
     assert theirs["renderer"] == kind and theirs["bias"] < 0.01 and all(r["cpu"] > 0 for r in theirs["runs"])
     assert errors.curve(theirs["runs"], "rel_mse")[1]["error"] < errors.curve(theirs["runs"], "rel_mse")[0]["error"]
+
+
+def test_a_python_without_numpy_is_told_what_to_do():
+    script = "import sys, runpy; sys.modules['numpy'] = None; runpy.run_module('restage.bench', run_name='__main__')"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(pathlib.Path(restage.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment)
+    assert done.returncode == 1 and "needs numpy" in done.stderr and "RESTAGE_PYTHON" in done.stderr

@@ -14,6 +14,12 @@ import sys
 import tempfile
 import time
 
+try:
+    import numpy  # noqa: F401
+except ImportError:
+    sys.exit(f"restage: error: bench needs numpy, which {sys.executable} does not have; install it there (pip install numpy), "
+             "or let RESTAGE_PYTHON name a Python that has it")
+
 from .. import Error, _program, bundled_scene
 from . import errors, growth, page, renderers, scenes
 
