@@ -46,12 +46,16 @@ class Worker:
 
     def render(self, options, jobs, folder):
         done = scenes.run([self.python, HERE / f"{self.kind}_worker.py", self.xml, folder, *options, "--jobs", *(f"{n}:{seed}" for n, seed in jobs)])
+        missing = len(jobs)
         for line in done.stdout.splitlines():
             row = json.loads(line) if line.startswith("{") else {}
             if "loss" in row and row["loss"] not in self.losses:
                 self.losses.append(row["loss"])
             if "file" in row:
                 yield {**row, "file": pathlib.Path(row["file"])}
+                missing -= 1
+        if missing:
+            raise scenes.Failed(f"{self.kind}: {missing} of {len(jobs)} pictures are missing: " + "\n".join(done.stdout.splitlines()[-3:]))
 
 
 class Pbrt:
