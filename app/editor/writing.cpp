@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
+#include <algorithm>
 
 namespace restage::editor {
 
@@ -146,6 +147,19 @@ Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
 
 } // namespace
 
+// The exporter of the format that was opened; else the first whose files can be opened again.
+static std::size_t usual_exporter(const plugin::Registry& registry, const std::string& opened) {
+    const auto& exporters = registry.exporters();
+    const auto of = [&](const std::string& format) {
+        return std::size_t(std::ranges::find_if(exporters, [&](const auto& x) { return x.table->format == format; }) -
+                           exporters.begin());
+    };
+    if (const std::size_t i = of(opened); i < exporters.size()) return i;
+    for (const auto& importer : registry.importers())
+        if (const std::size_t i = of(importer.table->format); i < exporters.size()) return i;
+    return 0;
+}
+
 void export_dialog(PanelContext& e) {
     struct State {
         std::size_t exporter = 0;
@@ -155,7 +169,9 @@ void export_dialog(PanelContext& e) {
         e.notices.add(LogLevel::error, "No exporter plugin is loaded: see Plugins");
         return;
     }
-    e.show_modal("Export", [state = std::make_shared<State>()](PanelContext& editor) {
+    const auto state = std::make_shared<State>();
+    state->exporter = usual_exporter(e.registry(), e.session().base().format);
+    e.show_modal("Export", [state](PanelContext& editor) {
         const auto& exporters = editor.registry().exporters();
         const model::Exporter& exporter = *exporters[state->exporter].table;
         dialog_width(360);

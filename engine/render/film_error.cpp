@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t radius = 16; // of the neighbourhood [pixel]: some 34 twins
 constexpr double prior = 16;       // twins for which the whole film's ratio counts in it
+constexpr double trust = 8;        // twins that outweigh the claim that samples are independent, for a film of few
 constexpr double least_ratio = 1e-3;
 // Where the spread is larger than this times that of the neighbourhood, it is by a few bright samples, and
 // stratification does not help against those.
@@ -69,7 +70,7 @@ void correct_errors(FilmImage& film) {
         all += ratio[i];
     }
     sum_nearby(ratio, film.width, film.height);
-    const double overall = all.count > 0 ? all.sum / all.count : 1;
+    const double overall = (all.sum + trust) / (all.count + trust);
     for (std::size_t i = 0; i < n; ++i) {
         const double variance = film.luminance_variance[i];
         if (!(variance > 0)) continue;

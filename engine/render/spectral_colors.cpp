@@ -209,7 +209,7 @@ glm::vec4 spectrum_at(const glm::vec3& stored, float hero, std::span<const glm::
         const float nm = shared::visible_wavelength(glm::fract(hero + 0.25f * float(k)));
         if (high & CURVE_BIT) {
             const float x = std::clamp(nm - float(SPECTRAL_FIRST), 0.f, float(SPECTRAL_CURVE - 1));
-            const glm::vec2 v = curves[low * SPECTRAL_CURVE + std::size_t(x)];
+            const glm::vec2& v = curves[low * SPECTRAL_CURVE + std::size_t(x)];
             out[k] = stored.z * glm::mix(v.x, v.y, x - std::floor(x));
         } else {
             out[k] = stored.z * float(smooth_spectrum(shared::unpack_coefficients(low, high), double(nm)));

@@ -107,7 +107,7 @@ TEST_CASE("spectral: shaders and C++ agree on the spectrum of a colour") {
     double worst = 0;
     for (std::size_t i = 0; i < list.size(); ++i)
         for (int k = 0; k < 4; ++k) {
-            const glm::vec3 c = list[i];
+            const glm::vec3& c = list[i];
             const bool grey = c.x == c.y && c.y == c.z;
             const double expected =
                 grey ? double(c.x) : render::smooth_spectrum(glm::dvec3(colors().coefficients(c)), 420 + 80 * k);

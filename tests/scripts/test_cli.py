@@ -458,4 +458,4 @@ def test_a_clamp_of_the_scene_is_switched_off_by_0(tmp_path):
         means.append(exr_file.read(tmp_path / "x.exr")["G"].mean())
     assert means[1] < 0.95 * means[0] and means[2:] == pytest.approx([means[0]] * 2, rel=1e-5)
     done = restage("render", CORNELL, "-o", tmp_path / "x.exr", "--reference", "--clamp-direct", 1)
-    assert done.returncode == 2 and "--reference excludes --clamp-direct" in done.stderr
+    assert done.returncode == 2 and "--clamp-direct excludes --reference" in done.stderr

@@ -32,7 +32,7 @@ def built(folder, sources, include, *flags):
     objects = []
     for source in sources:
         compiler = ["cc", "-std=c11"] if source.suffix == ".c" else ["c++", "-std=c++20", "-fno-gnu-unique"]
-        objects.append(folder / (source.name + ".o"))
+        objects.append(folder / f"{source.parent.name}-{source.name}.o")
         subprocess.run([*compiler, "-c", "-fPIC", "-fvisibility=hidden", f"-I{include}", *flags, source, "-o", objects[-1]],
                        check=True, timeout=120)
     library = folder / re.search(r'"library": "(\w+)"', (folder / "plugin.json").read_text())[1]
@@ -77,7 +77,10 @@ def test_shipped_plugins_built_on_a_later_day_work(kind, name, later, tmp_path):
     source = ROOT / f"plugins/{kind}s/{name}"
     folder = shutil.copytree(source, tmp_path / name)
     sources = [f for f in sorted(source.iterdir()) if f.suffix in (".c", ".cpp")]
-    built(folder, sources, later, f"-I{source}")
+    shared = source.parent / "common" if kind == "exporter" else source  # a library that exporters link
+    if shared != source:
+        sources += sorted(shared.glob("*.cpp"))
+    built(folder, sources, later, f"-I{source}", f"-I{shared.parent}")
     only = [] if kind == "exporter" else ["--only", "params"]
     check(folder, *only)
     if name == "conductor":

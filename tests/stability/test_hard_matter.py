@@ -24,7 +24,7 @@ def test_a_hundred_thousand_transparent_layers(stage):
     """Of opacity 0: nothing is lost. Of opacity 1e-5: (1 - 1e-5)^1e5, one draw per layer."""
     clear = stage.render(BACK + diffuse(0) + layers(stage, LAYERS, '"float alpha" 0'), samples=1)
     clear.is_everywhere(1)
-    faint = stage.render(BACK + diffuse(0) + layers(stage, LAYERS, f'"float alpha" {1 / LAYERS!r}'), samples=16, size=(4, 4))
+    faint = stage.render(BACK + diffuse(0) + layers(stage, LAYERS, f'"float alpha" {1 / LAYERS!r}'), samples=16, size=(8, 8))
     faint.is_mean((1 - 1 / LAYERS) ** LAYERS, sharp=0.1)
     null = stage.render(BACK + 'Material "interface"\n' + layers(stage, LAYERS), samples=1)
     null.is_everywhere(1)
