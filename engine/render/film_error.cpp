@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t radius = 16; // of the neighbourhood [pixel]: some 34 twins
 constexpr double prior = 16;       // twins for which the whole film's ratio counts in it
-constexpr double trust = 8;        // twins that outweigh the claim that samples are independent, for a film of few
+constexpr double enough = 64; // twins; with fewer of them, that samples are independent counts for up to 8 of them
 constexpr double least_ratio = 1e-3;
 // Where the spread is larger than this times that of the neighbourhood, it is by a few bright samples, and
 // stratification does not help against those.
@@ -70,7 +70,8 @@ void correct_errors(FilmImage& film) {
         all += ratio[i];
     }
     sum_nearby(ratio, film.width, film.height);
-    const double overall = (all.sum + trust) / (all.count + trust);
+    const double unknown = std::max(0.0, enough - all.count) / 8;
+    const double overall = all.count + unknown > 0 ? (all.sum + unknown) / (all.count + unknown) : 1;
     for (std::size_t i = 0; i < n; ++i) {
         const double variance = film.luminance_variance[i];
         if (!(variance > 0)) continue;
