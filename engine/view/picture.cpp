@@ -27,7 +27,12 @@ template <class V>
 void add_layer(io::ExrImage& image, const std::string& name, const render::FilmLayer<V>& from,
                const std::vector<V>& values, float scale) {
     using T = std::conditional_t<std::is_same_v<V, std::uint32_t>, std::uint32_t, float>;
-    constexpr std::size_t count = sizeof(V) / sizeof(T);
+    constexpr std::size_t count = [] {
+        if constexpr (std::is_arithmetic_v<V>)
+            return std::size_t(1);
+        else
+            return std::size_t(V::length());
+    }();
     io::ExrLayer& layer = layer_of(image, name);
     if constexpr (std::is_same_v<T, std::uint32_t>) layer.type = io::ExrType::uint32;
     auto& held = [&]() -> std::vector<T>& {
