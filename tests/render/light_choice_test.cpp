@@ -431,7 +431,7 @@ TEST_CASE("light table: a lamp that moves is replaced, and the tree still holds 
     for (std::size_t i = 0; i < fresh.lights.size(); ++i) {
         auto mine = table.lights[i];
         mine.node = fresh.lights[i].node;
-        CHECK(std::memcmp(&mine, &fresh.lights[i], sizeof(mine)) == 0);
+        CHECK(std::ranges::equal(std::as_bytes(std::span(&mine, 1)), std::as_bytes(std::span(&fresh.lights[i], 1))));
     }
     double intensity = 0;
     for (std::size_t n = 0; n < table.nodes.size(); ++n) {
