@@ -221,7 +221,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     RESTAGE_CHECK(write(o.outputs, picture, o.picture));
 
     const auto& stats = renderer->stats();
-    const double relative_error = before ? render::relative_error(picture.film) : renderer->relative_error();
+    const double relative_error = render::relative_error(picture.film);
     if (!o.statistics.empty()) {
         const std::string text = statistics(o, *renderer, picture, relative_error, spent).dump(2) + "\n";
         if (o.statistics == "-")

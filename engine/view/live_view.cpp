@@ -3,6 +3,7 @@
 
 #include "base/thread_priority.hpp"
 #include "plugin/registry.hpp"
+#include "render/film_error.hpp"
 #include "render/renderer.hpp"
 #include "view/pictures.hpp"
 #include "view/view_denoiser.hpp"
@@ -371,7 +372,7 @@ struct LiveView::Impl {
         frame->document = work.document;
         frame->divider = work.divider;
         frame->seconds = seconds_since(work.request->time);
-        frame->relative_error = work.renderer->relative_error();
+        frame->relative_error = render::relative_error(frame->image);
         const std::uint32_t samples = work.renderer->samples();
         // Denoise at powers of two, and the last one.
         const bool denoise = work.request->options.denoise &&

@@ -4,6 +4,7 @@
 #include "importer.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -106,12 +107,17 @@ void Importer::clear_coat(const tinygltf::Material& m, const tinygltf::Value& v,
 std::string dispersed_index(double ior, double dispersion) {
     constexpr double d = 587.6, f = 486.1, c = 656.3; // lines [nm]
     const double b = (ior - 1) * dispersion / 20 / (1 / (f * f) - 1 / (c * c));
-    const float stored = static_cast<float>(ior);
     std::string text;
+    const auto add = [&](auto x) { // all digits, in any locale
+        char digits[32];
+        text.append(digits, std::to_chars(digits, digits + sizeof(digits), x).ptr) += ' ';
+    };
     for (int i = 0; i < 3; ++i)
-        text += std::to_string(stored) + " ";
-    for (int nm = 360; nm <= 830; nm += 10)
-        text += std::to_string(nm) + " " + std::to_string(ior + b * (1.0 / (nm * nm) - 1 / (d * d))) + " ";
+        add(static_cast<float>(ior));
+    for (int nm = 360; nm <= 830; nm += 10) {
+        add(nm);
+        add(static_cast<float>(ior + b * (1.0 / (nm * nm) - 1 / (d * d))));
+    }
     return text;
 }
 
@@ -152,6 +158,8 @@ void Importer::extensions(const tinygltf::Material& m, const BaseColor& base, Ma
             iridescence(v, made, values);
         } else if (name == "KHR_materials_dispersion") {
             made.dispersion = number_of(v, "dispersion", 0);
+            if (made.dispersion > 0)
+                report_.approximated(what + ": dispersion", "left out in RGB; --spectral renders it");
         } else if (name == "KHR_materials_diffuse_transmission" || name == "KHR_materials_variants") {
             report_.dropped(what + ": " + name, "not rendered");
         } else if (name != "KHR_materials_volume" && name != "KHR_materials_unlit" &&
