@@ -147,6 +147,8 @@ void fields(V& v, scene::Settings& s) {
     v("samples", s.samples);
     v("russian_roulette", s.russian_roulette);
     v("spectral", s.spectral);
+    v("guiding", s.guiding);
+    v("caustics", s.caustics);
     v("clamp_direct", s.clamp_direct);
     v("clamp_indirect", s.clamp_indirect);
     v("ray_epsilon", s.ray_epsilon);
@@ -198,6 +200,11 @@ template <>
 struct Names<scene::FilterKind> {
     static constexpr const char* list[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
     static constexpr int first = int(scene::FilterKind::box);
+};
+template <>
+struct Names<scene::Technique> {
+    static constexpr const char* list[] = {"auto", "on", "off"};
+    static constexpr int first = int(scene::Technique::automatic);
 };
 
 } // namespace restage::document

@@ -207,21 +207,30 @@ struct Film {
     bool operator==(const Film&) const = default;
 };
 
+// Of a technique that does not pay in every scene.
+enum class Technique : std::uint8_t {
+    automatic, // where it pays
+    on,
+    off,
+};
 // What affects the image but is not an item of the scene.
 struct Settings {
     std::uint32_t max_depth = 8; // pbrt's maxdepth
     std::uint32_t samples = 64;
     bool russian_roulette = true;
     bool spectral = false; // paths carry four wavelengths instead of RGB
+    Technique guiding = Technique::automatic; // directions are chosen by what earlier samples found
+    Technique caustics = Technique::automatic; // light through glass and off mirrors by photon maps; biased, consistent
     float clamp_direct = 0, clamp_indirect = 0; // biased; 0 = off
     float ray_epsilon = 0; // 0 = error-bounded offsets; else an offset in scene units
     Id<Medium> camera_medium;
     Origin origin; // integrator, sampler, options
     bool operator==(const Settings&) const = default;
 };
-// Without what is biased: limits of contributions, and a ray offset other than by error bounds.
+// Without what is biased: limits of contributions, a ray offset other than by error bounds, and photon maps.
 inline Settings for_reference(Settings s) {
     s.clamp_direct = s.clamp_indirect = s.ray_epsilon = 0;
+    s.caustics = Technique::off;
     return s;
 }
 
