@@ -9,6 +9,7 @@
 #include "progress.hpp"
 #include "render/tracers.hpp"
 #include "scene/tables.hpp"
+#include "scene/techniques.hpp"
 
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -73,6 +74,20 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--russian-roulette", o.roulette,
                     "End paths that carry little light early, without bias: on or off (default: the scene's)")
         ->check(CLI::IsMember({"on", "off"}));
+    command.add_flag("--adaptive", o.adaptive,
+                     "Give noisy parts of the picture more samples than others, without bias: --spp is their mean. Not "
+                     "with --first-sample and --resume, whose samples are the same for all pixels");
+    command
+        .add_option("--guiding", o.guiding,
+                    "Learn where light comes from and send paths there: auto (where it pays), on or off (default: the "
+                    "scene's, or auto)")
+        ->check(CLI::IsMember(scene::technique_names));
+    auto* caustics =
+        command
+            .add_option("--caustics", o.caustics,
+                        "Light through glass and off mirrors by photon maps (biased, less with every sample): auto "
+                        "(where the scene has any), on or off (default: the scene's, or auto)")
+            ->check(CLI::IsMember(scene::technique_names));
     auto* clamp_direct =
         command
             .add_option("--clamp-direct", o.clamp_direct,
@@ -92,6 +107,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command
         .add_flag("--reference", o.reference,
                   "For a reference picture: turn off everything biased, whatever the scene says")
+        ->excludes(caustics)
         ->excludes(clamp_direct)
         ->excludes(clamp_indirect)
         ->excludes(ray_epsilon);
@@ -204,6 +220,9 @@ Result<void> apply_options(Context& context, const RenderOptions& o, scene::Scen
     if (o.max_depth >= 0) settings.max_depth = std::uint32_t(o.max_depth);
     if (!o.roulette.empty()) settings.russian_roulette = o.roulette == "on";
     settings.spectral |= o.spectral;
+    settings.adaptive |= o.adaptive;
+    settings.guiding = scene::find_technique(o.guiding).value_or(settings.guiding);
+    settings.caustics = scene::find_technique(o.caustics).value_or(settings.caustics);
     settings.clamp_direct = o.clamp_direct.value_or(settings.clamp_direct);
     settings.clamp_indirect = o.clamp_indirect.value_or(settings.clamp_indirect);
     settings.ray_epsilon = o.ray_epsilon.value_or(settings.ray_epsilon);

@@ -28,7 +28,8 @@ struct RenderOptions {
     std::string strategy = "mis";
     int max_depth = -1;
     std::string roulette; // "", on, off
-    bool spectral = false; // or the scene's
+    bool spectral = false, adaptive = false; // or the scene's
+    std::string guiding, caustics; // "", or one of scene::technique_names
     std::optional<float> clamp_direct, clamp_indirect; // biased; none = the scene's
     std::optional<float> ray_epsilon; // 0 = error bounds
     bool reference = false; // nothing biased

@@ -9,8 +9,11 @@
 
 layout(push_constant, scalar) uniform Push { TracePush push; };
 
-uint launch_pixel(FrameData frame) { // of the crop window, row by row
-    return (push.y + gl_LaunchIDEXT.y) * frame.crop_width + push.x + gl_LaunchIDEXT.x;
+// A sample of the list, or of a rectangle of the crop window.
+SamplePick launch_pick(FrameData frame) {
+    uint x = push.x + gl_LaunchIDEXT.x;
+    if (frame.picks != 0ul) return PickArray(frame.picks).at[x];
+    return SamplePick((push.y + gl_LaunchIDEXT.y) * frame.crop_width + x, frame.first_sample + push.sample_index);
 }
 
 // Cull masks: what light hits, and the borders of media, which it passes. An instance with gaps may be both.

@@ -27,7 +27,7 @@ void main() {
         atomicAdd(CounterArray(frame.counters).at[min(material.type, uint(COUNTER_MAX_TYPES - 1))], 1u);
     }
     if (HAS_GUIDES && guided && !(HAS_GLOW && guide.weight < 0.0)) { // here, to keep albedo and normal out of the payload
-        uint pixel = launch_pixel(frame);
+        uint pixel = launch_pick(frame).pixel;
         GuidePixel g = GuidePixelArray(frame.film_guides).at[pixel];
         if (first) guide_add(g, guide);
         else guide_add_behind(g, guide);

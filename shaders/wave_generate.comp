@@ -10,10 +10,9 @@
 void main() {
     uint i = gl_GlobalInvocationID.x;
     FrameData frame = FrameRef(push.frame).frame;
-    uint pixel = frame.first_pixel + i % frame.pixel_count;
-    uint sample_index = frame.first_sample + i / frame.pixel_count;
+    SamplePick pick = PickArray(frame.picks).at[i];
     vec3 origin, direction;
-    PathState path = path_begin(SceneRef(frame.scene), frame, pixel, sample_index, origin, direction);
+    PathState path = path_begin(SceneRef(frame.scene), frame, pick.pixel, pick.sample_index, origin, direction);
     RayArray rays = RayArray(frame.rays); // a ray's other fields never change, or Embree writes them
     rays.at[i].origin = origin;
     rays.at[i].direction = direction;

@@ -145,7 +145,7 @@ Result<void> go_on(Options& o, const view::StoredPicture& before, const scene::S
 }
 
 Metadata metadata_of(const Options& o, render::Renderer& renderer, const scene::Scene& scene) {
-    const view::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.samples()}};
+    const view::SampleRange range[] = {{o.renderer.seed, o.first_sample, renderer.most_samples()}};
     Metadata metadata = what_is_rendered(o, scene);
     metadata.merge(Metadata{{"restage:version", version()},
                             {"restage:device", renderer.device().info().name},
@@ -201,6 +201,7 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
         RESTAGE_TRY(before, view::read_picture(o.resume));
         RESTAGE_CHECK(go_on(o, *before, scene));
     }
+    if (o.first_sample > 0) scene.settings.value.adaptive = false; // other samples are to be added to these
     if (!renderer) {
         RESTAGE_TRY(renderer,
                     render::Renderer::create(o.renderer, render::material_lookup(context.registry()), context.log));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scene/tables.hpp"
+#include "scene/techniques.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -147,6 +148,7 @@ void fields(V& v, scene::Settings& s) {
     v("samples", s.samples);
     v("russian_roulette", s.russian_roulette);
     v("spectral", s.spectral);
+    v("adaptive", s.adaptive);
     v("guiding", s.guiding);
     v("caustics", s.caustics);
     v("clamp_direct", s.clamp_direct);
@@ -203,7 +205,7 @@ struct Names<scene::FilterKind> {
 };
 template <>
 struct Names<scene::Technique> {
-    static constexpr const char* list[] = {"auto", "on", "off"};
+    static constexpr auto list = scene::technique_names;
     static constexpr int first = int(scene::Technique::automatic);
 };
 

@@ -3,6 +3,7 @@
 // accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
 #include "render/embree_scene.hpp"
+#include "render/sample_plan.hpp"
 #include "render/wave_kernels.hpp"
 #include "shared/wave_data.h"
 
@@ -50,6 +51,8 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_TRY(guides_, c_.device.create_buffer(all_paths * sizeof(shared::GuideSample), host, "guide samples"));
         RESTAGE_TRY(queue_, c_.device.create_buffer((wave_paths + all_paths) * sizeof(std::uint32_t), host, "queue"));
         RESTAGE_TRY(counters_, c_.device.create_buffer(COUNTER_COUNT * sizeof(std::uint32_t), host, "counters"));
+        RESTAGE_TRY(picks_, c_.device.create_buffer(wave_paths * sizeof(shared::SamplePick), host, "samples"));
+        RESTAGE_TRY(runs_, c_.device.create_buffer(wave_paths * sizeof(shared::SampleRun), host, "runs of samples"));
         RESTAGE_TRY(frame_, c_.device.create_buffer(sizeof(shared::FrameData), gpu::BufferKind::host, "frame"));
         std::memset(counters_.mapped(), 0, counters_.size());
         std::memset(rays_.mapped(), 0, rays_.size()); // for fields kernels never write
@@ -74,26 +77,20 @@ class EmbreeTracer final : public Tracer {
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
         RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
-        const std::uint32_t pixels = film.width() * film.rows();
         // A wave covers all pixels with several samples each, or some pixels with one sample each.
-        const std::uint32_t samples = std::clamp(wave_paths / std::max(pixels, 1u), 1u, request.samples);
-        for (std::uint32_t s = 0; going && s < request.samples; s += samples)
-            for (std::uint32_t p = 0; going && p < pixels; p += wave_paths) {
-                if (request.keep_going && !request.keep_going()) return finish(scene, start);
-                shared::FrameData f{};
-                f.first_pixel = p;
-                f.pixel_count = std::min(wave_paths, pixels - p);
-                f.samples = std::min(samples, request.samples - s);
-                f.first_sample = request.first_sample + s;
-                f.crop_x = request.crop_x;
-                f.crop_y = request.crop_y;
-                f.crop_width = film.width();
-                f.crop_height = film.height();
-                f.seed = request.seed;
-                f.film = film.pixels();
-                f.film_guides = film.guides();
-                RESTAGE_TRY(going, wave(scene, f, request.keep_going));
-            }
+        SamplePlan plan(request, film.width() * film.rows(), wave_paths, wave_paths);
+        while (going && plan.next()) {
+            if (request.keep_going && !request.keep_going()) break;
+            shared::FrameData f{};
+            f.crop_x = request.crop_x;
+            f.crop_y = request.crop_y;
+            f.crop_width = film.width();
+            f.crop_height = film.height();
+            f.seed = request.seed;
+            f.film = film.pixels();
+            f.film_guides = film.guides();
+            RESTAGE_TRY(going, wave(scene, f, plan, request.keep_going));
+        }
         return finish(scene, start);
     }
 
@@ -109,7 +106,16 @@ class EmbreeTracer final : public Tracer {
     }
 
     // False: keep_going requested a stop, and the film has nothing of this wave.
-    Result<bool> wave(const GpuScene& scene, shared::FrameData& f, const std::function<bool()>& keep_going) {
+    Result<bool> wave(const GpuScene& scene, shared::FrameData& f, const SamplePlan& plan,
+                      const std::function<bool()>& keep_going) {
+        const auto count = std::uint32_t(plan.picks().size()), run_count = std::uint32_t(plan.runs().size());
+        auto picks = picks_.span<shared::SamplePick>();
+        std::ranges::copy(plan.picks(), picks.begin());
+        std::fill(picks.begin() + count, picks.begin() + whole_groups(count), plan.picks().back());
+        std::ranges::copy(plan.runs(), runs_.span<shared::SampleRun>().begin());
+        f.picks = picks_.address();
+        f.runs = runs_.address();
+        f.run_count = run_count;
         f.scene = scene.address();
         f.rays = rays_.address();
         f.shadows = shadows_.address();
@@ -143,7 +149,6 @@ class EmbreeTracer final : public Tracer {
                  .clamp_direct = data.clamp_direct,
                  .clamp_indirect = data.clamp_indirect,
                  .ray_epsilon = data.ray_epsilon};
-        const std::uint32_t count = f.pixel_count * f.samples;
         stats_.paths += count;
 
         RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.generate(), 0, count); }));
@@ -170,7 +175,7 @@ class EmbreeTracer final : public Tracer {
                         dispatch(list, kernels_.shade(t), type_first_[t], type_count_[t]);
             }));
         }
-        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, f.pixel_count); }));
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, run_count); }));
         return true;
     }
 
@@ -484,7 +489,7 @@ class EmbreeTracer final : public Tracer {
 
     TracerContext c_;
     std::unique_ptr<EmbreeScene> embree_;
-    gpu::Buffer rays_, shadows_, paths_, fourths_, guides_, queue_, counters_, frame_;
+    gpu::Buffer rays_, shadows_, paths_, fourths_, guides_, queue_, counters_, picks_, runs_, frame_;
     WaveKernels kernels_;
     std::vector<Undecided> undecided_; // by chunk of active_
     gpu::Buffer asked_, decided_;

@@ -116,6 +116,17 @@ std::uint32_t Film::least_samples() const {
     return least == pixels.end() ? 0 : std::uint32_t(least->count);
 }
 
+std::uint32_t Film::most_samples() const {
+    const auto pixels = pixels_.span<shared::FilmPixel>().first(std::size_t(width_) * height_);
+    const auto most =
+        std::max_element(pixels.begin(), pixels.end(), [](const auto& a, const auto& b) { return a.count < b.count; });
+    return most == pixels.end() ? 0 : std::uint32_t(most->count);
+}
+
+std::uint32_t Film::samples_of(std::size_t pixel) const {
+    return std::uint32_t(pixels_.span<shared::FilmPixel>()[pixel].count);
+}
+
 double Film::relative_error() const { return render::relative_error(read()); }
 
 } // namespace restage::render

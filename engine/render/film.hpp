@@ -21,7 +21,8 @@ class Film {
     std::uint64_t pixels() const { return pixels_.address(); }
     std::uint64_t guides() const { return guides_.address(); }
     FilmImage read() const;
-    std::uint32_t least_samples() const; // minimum over all pixels
+    std::uint32_t samples_of(std::size_t pixel) const; // of the film, row by row, and of its twins
+    std::uint32_t least_samples() const, most_samples() const; // over all pixels
     // As relative_error() of its image (film_error.hpp).
     double relative_error() const;
 

@@ -17,7 +17,7 @@ namespace restage::render {
 // Normalised; row 0 on top. Layers have width * height values.
 struct FilmImage {
     std::uint32_t width = 0, height = 0;
-    std::uint32_t samples = 0;           // minimum over pixels
+    std::uint32_t samples = 0; // minimum over pixels; adaptive: their mean
     std::vector<glm::vec3> color;        // linear sRGB radiance, exposure not applied
     std::vector<glm::vec3> std_error; // of the mean, per channel; 0 with fewer than 2 samples. See film_error.hpp
     std::vector<float> luminance_variance; // of the mean

@@ -98,6 +98,17 @@ Result<FilmImage> Renderer::clay(glm::uvec2 size) {
     return clay_picture(*gpu_scene_, embree ? *embree : *clay_scene_, jobs_, size);
 }
 
+FilmImage Renderer::image() const {
+    if (!film_) return {};
+    FilmImage image = film_->read();
+    if (!adaptive_plan_.empty()) image.samples = samples_;
+    return image;
+}
+
+std::uint32_t Renderer::most_samples() const {
+    return adaptive_plan_.empty() || !film_ ? samples_ : film_->most_samples();
+}
+
 void Renderer::forget_scene() {
     clay_scene_.reset();
     gpu_scene_ = std::make_unique<GpuScene>(*device_, jobs_, lookup_, options_.strategy);
@@ -138,26 +149,66 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
             film_ = std::move(film);
         }
     }
+    adaptive_ = scene.settings.value.adaptive;
     if (changes.image) reset();
     return {};
 }
 
-Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
-    if (tracer_->adopt()) reset();
-    TraceRequest request;
-    request.first_sample = first_sample_ + samples_;
-    request.samples = samples;
-    request.seed = options_.seed;
-    request.crop_x = crop_origin_.x;
-    request.crop_y = crop_origin_.y;
+TraceRequest Renderer::request() const {
+    TraceRequest r;
+    r.first_sample = first_sample_ + samples_;
+    r.seed = options_.seed;
+    r.crop_x = crop_origin_.x;
+    r.crop_y = crop_origin_.y;
+    return r;
+}
+
+// Whether it was not stopped.
+Result<bool> Renderer::trace(TraceRequest request, const std::function<bool()>& keep_going) {
     bool stopped = false;
     request.keep_going = [&] {
-        stopped = stopped || (keep_going && !keep_going());
+        stopped = stopped || !keep_going();
         return !stopped;
     };
     RESTAGE_CHECK(tracer_->trace(*gpu_scene_, *film_, request));
+    return !stopped;
+}
+
+Result<bool> Renderer::trace_uniform(std::uint32_t samples, const std::function<bool()>& keep_going) {
+    TraceRequest r = request();
+    r.samples = samples;
+    RESTAGE_TRY(const bool whole, trace(r, keep_going));
     // If stopped within a pass, some pixels have more samples than others: count what all of them have.
-    samples_ = stopped ? film_->least_samples() : samples_ + samples;
+    samples_ = whole ? samples_ + samples : film_->least_samples();
+    return whole;
+}
+
+Result<bool> Renderer::trace_adaptive(std::uint32_t samples, const std::function<bool()>& keep_going) {
+    if (adaptive_plan_.empty()) adaptive_plan_ = AdaptivePlan(*film_);
+    const std::vector<std::uint32_t> goals = adaptive_plan_.counts(samples_ + samples);
+    std::vector<PixelSamples> pixels(goals.size());
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+        const std::uint32_t has = film_->samples_of(i); // also those of a trace that was stopped
+        pixels[i] = {first_sample_ + has, goals[i] - std::min(has, goals[i])};
+    }
+    TraceRequest r = request();
+    r.samples = samples;
+    r.pixels = pixels;
+    RESTAGE_TRY(const bool whole, trace(r, keep_going));
+    if (whole) samples_ += samples;
+    return whole;
+}
+
+Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
+    if (tracer_->adopt()) reset();
+    if (!keep_going) keep_going = [] { return true; };
+    const std::uint32_t uniform =
+        adaptive_ ? std::min(samples, adaptive_pilot - std::min(samples_, adaptive_pilot)) : samples;
+    bool going = true;
+    if (uniform > 0) {
+        RESTAGE_TRY(going, trace_uniform(uniform, keep_going));
+    }
+    if (going && uniform < samples) RESTAGE_CHECK(trace_adaptive(samples - uniform, keep_going));
     if (samples_ > 0) revived_ = false;
     return {};
 }

@@ -3,6 +3,7 @@
 // After an error, check lost(): a driver that stopped can be restarted by revive(). One thread at a time.
 #pragma once
 
+#include "render/adaptive.hpp"
 #include "render/embree_scene.hpp"
 #include "render/renderer_options.hpp"
 #include "render/tracer.hpp"
@@ -21,7 +22,7 @@ class Renderer {
 
     // Updates to the scene. If a visible change occurred, the film restarts.
     Result<void> sync(const scene::Scene& scene);
-    // Adds `samples` to every pixel; first restarts the film if newly compiled shaders changed the picture.
+    // Adds `samples` to every pixel, or with Settings::adaptive to their mean; first restarts the film if newly compiled shaders changed the picture.
     // `keep_going` is called between batches of work (a wave of 65536 paths, a rectangle of the film) and while shaders
     // compile; false stops early and is not an error.
     Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
@@ -46,11 +47,13 @@ class Renderer {
     // What workers are compiling; nullopt: the picture has (or, before trace() has begun, may have) no stand-ins.
     std::optional<CompileProgress> compiling() const { return tracer_->compiling(); }
 
-    std::uint32_t samples() const { return samples_; } // per pixel, since the last reset
-    FilmImage image() const { return film_ ? film_->read() : FilmImage{}; }
+    std::uint32_t samples() const { return samples_; } // per pixel (adaptive: their mean), since the last reset
+    std::uint32_t most_samples() const; // of a pixel
+    FilmImage image() const;
     double relative_error() const { return film_ ? film_->relative_error() : 1e30; }
     void reset() {
         samples_ = 0;
+        adaptive_plan_ = {};
         if (film_) film_->clear();
         tracer_->film_emptied();
     }
@@ -74,6 +77,11 @@ class Renderer {
   private:
     Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log);
     Result<void> open();
+    // These return false if keep_going stopped them; the first two add to the mean of the pixels' samples.
+    Result<bool> trace_uniform(std::uint32_t samples, const std::function<bool()>& keep_going);
+    Result<bool> trace_adaptive(std::uint32_t samples, const std::function<bool()>& keep_going);
+    Result<bool> trace(TraceRequest request, const std::function<bool()>& keep_going);
+    TraceRequest request() const;
 
     RendererOptions options_;
     MaterialLookup lookup_;
@@ -87,6 +95,8 @@ class Renderer {
     std::optional<Film> film_;
     glm::uvec2 crop_origin_{0};
     std::uint32_t samples_ = 0, first_sample_ = 0;
+    bool adaptive_ = false;
+    AdaptivePlan adaptive_plan_; // made after the pilot
     bool revived_ = false; // and has delivered no sample since
 };
 

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace restage::render {
@@ -28,8 +29,13 @@ struct TracerContext {
     bool stand_ins = false; // see RendererOptions
 };
 
+struct PixelSamples { // to add to a pixel
+    std::uint32_t first = 0, count = 0; // of its samples
+};
+
 struct TraceRequest {
     std::uint32_t first_sample = 0, samples = 1; // per pixel
+    std::span<const PixelSamples> pixels; // instead, if not empty: of each pixel of the film and its twins
     std::uint32_t seed = 0;
     std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
     // Called between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.

@@ -6,6 +6,7 @@
 #include "gpu/accel.hpp"
 #include "gpu/pipeline.hpp"
 #include "render/pipeline_store.hpp"
+#include "render/sample_plan.hpp"
 #include "render/texture_composer.hpp"
 
 #include <fmt/format.h>
@@ -104,11 +105,14 @@ class VulkanTracer final : public Tracer {
         f.crop_y = request.crop_y;
         f.crop_width = film.width();
         f.crop_height = film.height();
-        f.pixel_count = film.width() * film.height();
         f.seed = request.seed;
         f.samples = request.samples;
-        RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
-        RESTAGE_CHECK(trace_rectangles(film, request));
+        if (request.pixels.empty()) {
+            RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
+            RESTAGE_CHECK(trace_rectangles(film, request));
+        } else {
+            RESTAGE_CHECK(trace_picks(film, request, f));
+        }
         stats_.seconds += seconds_since(start);
         stats_.shader_bytes = pipeline_->shader_bytes();
         auto counts = counters_.span<std::uint32_t>();
@@ -295,6 +299,31 @@ class VulkanTracer final : public Tracer {
         return {};
     }
 
+    // One sample of each of some pixels after the other.
+    Result<void> trace_picks(const Film& film, const TraceRequest& request, shared::FrameData& f) {
+        constexpr std::uint32_t most = 1 << 16;
+        if (!picks_) {
+            RESTAGE_TRY(picks_, c_.device.create_buffer(most * sizeof(shared::SamplePick), gpu::BufferKind::host,
+                                                        "samples"));
+        }
+        f.picks = picks_.address();
+        SamplePlan plan(request, film.width() * film.rows(), most, 1);
+        while (plan.next()) {
+            const auto count = std::uint32_t(plan.picks().size());
+            f.samples = count;
+            RESTAGE_CHECK(c_.device.upload(picks_, 0, std::as_bytes(plan.picks())));
+            RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
+            Rectangle r;
+            r.height = 1;
+            for (r.x = 0; r.x < count; r.x += r.width) {
+                if (request.keep_going && !request.keep_going()) return {};
+                r.width = std::min(std::max(paths_now_, least_side), count - r.x);
+                RESTAGE_CHECK(submit_timed(r, 0, 1));
+            }
+        }
+        return {};
+    }
+
     Result<void> submit_timed(const Rectangle& r, std::uint32_t first_sample, std::uint32_t samples) {
         const auto start = Clock::now();
         RESTAGE_CHECK(submit(r, first_sample, samples));
@@ -335,6 +364,7 @@ class VulkanTracer final : public Tracer {
     std::vector<std::string> wanted_types_;
     bool shown_ = false; // the film contains something other than the wanted pipeline's result
     gpu::Buffer counters_, frame_;
+    gpu::Buffer picks_; // once needed
     gpu::CommandList list_;
     std::uint32_t instances_ = 0; // in tlas_
     std::uint32_t paths_now_ = 1024; // per submission

@@ -219,6 +219,7 @@ struct Settings {
     std::uint32_t samples = 64;
     bool russian_roulette = true;
     bool spectral = false; // paths carry four wavelengths instead of RGB
+    bool adaptive = false; // more samples where the picture is noisier
     Technique guiding = Technique::automatic; // directions are chosen by what earlier samples found
     Technique caustics = Technique::automatic; // light through glass and off mirrors by photon maps; biased, consistent
     float clamp_direct = 0, clamp_indirect = 0; // biased; 0 = off

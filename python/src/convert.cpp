@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "convert.hpp"
 
+#include "scene/techniques.hpp"
+
 #include <charconv>
 #include <memory>
 
 namespace restage::python {
+
+scene::Technique technique(const char* option, const std::string& name) {
+    if (const auto found = scene::find_technique(name)) return *found;
+    throw Failure(std::string(option) + ": '" + name + "' is none of auto, on and off");
+}
 
 double exact(float x) {
     std::array<char, 32> text{};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
+#include "scene/scene.hpp"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -43,6 +44,9 @@ T take(Result<T> result) {
     if (!result) throw Failure(result.error().message);
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
+
+// auto, on or off, for `option`; else throws Failure.
+scene::Technique technique(const char* option, const std::string& name);
 
 using Three = std::array<double, 3>;               // in: any sequence of three numbers
 using Triple = std::tuple<double, double, double>; // out

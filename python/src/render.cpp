@@ -112,7 +112,9 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
                                 std::optional<std::uint32_t> samples, std::optional<double> seconds,
                                 std::optional<double> error, std::uint32_t seed, const nb::object& denoised,
                                 const nb::object& callback, unsigned threads, std::optional<std::uint32_t> max_depth,
-                                std::optional<bool> spectral, std::uint32_t first_sample, const std::string& tracer,
+                                std::optional<bool> spectral, std::optional<bool> adaptive,
+                                const std::optional<std::string>& guiding,
+                                const std::optional<std::string>& caustics, std::uint32_t first_sample, const std::string& tracer,
                                 const std::string& device, const std::string& denoiser, bool reference) {
     if (int(samples.has_value()) + int(seconds.has_value()) + int(error.has_value()) > 1)
         throw Failure("render: give one of samples, seconds and error");
@@ -129,6 +131,10 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     }
     if (max_depth) scene.settings.value.max_depth = *max_depth;
     scene.settings.value.spectral = spectral.value_or(scene.settings.value.spectral);
+    scene.settings.value.adaptive = adaptive.value_or(scene.settings.value.adaptive);
+    if (first_sample > 0) scene.settings.value.adaptive = false; // other samples are to be added to these
+    if (guiding) scene.settings.value.guiding = technique("guiding", *guiding);
+    if (caustics) scene.settings.value.caustics = technique("caustics", *caustics);
     if (reference) scene.settings.value = scene::for_reference(std::move(scene.settings.value));
     scene.settings.version = version_of_render();
     const std::string quality = denoise_quality(denoised);
@@ -180,7 +186,8 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
     c.def(
         "render", &render, "size"_a = nb::none(), "samples"_a = nb::none(), "seconds"_a = nb::none(),
         "error"_a = nb::none(), "seed"_a = 0, "denoise"_a = false, "progress"_a = nb::none(), "threads"_a = 0,
-        "max_depth"_a = nb::none(), "spectral"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "",
+        "max_depth"_a = nb::none(), "spectral"_a = nb::none(), "adaptive"_a = nb::none(), "guiding"_a = nb::none(),
+        "caustics"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "",
         "denoiser"_a = "", "reference"_a = false,
         "Path-traces the scene as it is now; returns a Picture. The same seed gives the same picture.\n\n"
         "size: (width, height) [pixel], default Session.size. Target: samples per pixel (default Session.samples), or\n"
@@ -190,12 +197,14 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "Picture.finished is False. Ctrl-C raises KeyboardInterrupt. Other Python threads run meanwhile, and may "
         "edit:\n"
         "a copy is rendered. first_sample: see restage.merge. tracer: see Picture.tracer; device: part of its name.\n"
-        "spectral: trace wavelengths instead of RGB, default Session.spectral. denoiser: see Picture.denoise.\n"
+        "spectral: trace wavelengths instead of RGB, default Session.spectral. adaptive: more samples where it is noisy.\n"
+        "guiding, caustics: auto, on or off, default Session.guiding and .caustics. denoiser: see Picture.denoise.\n"
         "reference: turns off everything biased, whatever Session says.",
         nb::sig("def render(self, size: tuple[int, int] | None = None, samples: int | None = None, "
                 "seconds: float | None = None, error: float | None = None, seed: int = 0, denoise: bool | str = False, "
                 "progress: collections.abc.Callable[[Progress], bool | None] | None = None, threads: int = 0, "
-                "max_depth: int | None = None, spectral: bool | None = None, first_sample: int = 0, tracer: str = '', "
+                "max_depth: int | None = None, spectral: bool | None = None, adaptive: bool | None = None, guiding: str | None = None, "
+                "caustics: str | None = None, first_sample: int = 0, tracer: str = '', "
                 "device: str = '', denoiser: str = '', reference: bool = False) -> Picture"));
 }
 

@@ -249,7 +249,24 @@ void bind_film(nb::class_<Workspace>& c) {
         .def_prop_rw(
             "spectral", [](Workspace& w) { return w.scene().settings.value.spectral; },
             [settings](Workspace& w, bool on) { settings(w, [&](Settings& s) { s.spectral = on; }); },
-            "Whether paths carry wavelengths instead of RGB: exact saturated colours and metals, dispersion.");
+            "Whether paths carry wavelengths instead of RGB: exact saturated colours and metals, dispersion.")
+        .def_prop_rw(
+            "adaptive", [](Workspace& w) { return w.scene().settings.value.adaptive; },
+            [settings](Workspace& w, bool on) { settings(w, [&](Settings& s) { s.adaptive = on; }); },
+            "Whether noisy parts of the picture get more samples than others; Session.samples is their mean.")
+        .def_prop_rw(
+            "guiding", [](Workspace& w) { return scene::technique_name(w.scene().settings.value.guiding); },
+            [settings](Workspace& w, const std::string& name) {
+                settings(w, [&](Settings& s) { s.guiding = technique("guiding", name); });
+            },
+            "Whether paths are sent where earlier samples found light: 'auto' (where it pays), 'on' or 'off'.")
+        .def_prop_rw(
+            "caustics", [](Workspace& w) { return scene::technique_name(w.scene().settings.value.caustics); },
+            [settings](Workspace& w, const std::string& name) {
+                settings(w, [&](Settings& s) { s.caustics = technique("caustics", name); });
+            },
+            "Whether light through glass and off mirrors comes from photon maps (biased, less with every sample): "
+            "'auto'\n(where the scene has any), 'on' or 'off'.");
 }
 
 void bind_contents(nb::class_<Workspace>& c) {

@@ -11,6 +11,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FilmArray { FilmPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuidePixelArray { GuidePixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GuideArray { GuideSample at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PickArray { SamplePick at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RunArray { SampleRun at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer CounterArray { uint at[]; };
 
 const float INFINITE = 1e30;

@@ -100,6 +100,14 @@ struct GuidePixel {
     uint instance_id, material_id; // of the first sample
 };
 
+struct SamplePick { // a sample to take
+    uint pixel; // of the film, row by row, and of its twins
+    uint sample_index;
+};
+struct SampleRun { // samples of one pixel: paths [first, first + count) of a wave
+    uint pixel, first, count;
+};
+
 // Counted by kernels: non-finite samples, by material type; and rays, if the device traces them.
 
 struct FrameData { // behind the push constant
@@ -113,9 +121,11 @@ struct FrameData { // behind the push constant
     address film; // FilmPixel[]
     address film_guides; // GuidePixel[]
     address counters; // uint[COUNTER_COUNT]
-    uint first_pixel, pixel_count; // this wave: pixels of the film, row by row
-    uint samples; // per pixel in this wave: path index = sample * pixel_count + pixel
-    uint first_sample;
+    address picks; // SamplePick[], of each path; 0: the ray-tracing pipeline takes a rectangle
+    address runs; // SampleRun[run_count], in a wave
+    uint run_count;
+    uint samples, first_sample; // of each pixel of a rectangle; samples: or the number of picks of the pipeline
+    uint pad1;
     uint crop_x, crop_y, crop_width, crop_height; // the film has rows of twins below these (shared/twins.h)
     uint seed, pad0;
 };

@@ -293,8 +293,14 @@ def test_undo_leads_back_and_redo_forward(demo, tmp_path):
 def test_size_exposure_and_settings_are_edits(demo):
     demo.size, demo.exposure, demo.samples, demo.max_depth, demo.spectral = (64, 48), 2.0, 4, 3, True
     assert (demo.size, demo.exposure, demo.samples, demo.max_depth, demo.spectral) == ((64, 48), 2.0, 4, 3, True)
-    for _ in range(5):
+    assert (demo.adaptive, demo.guiding, demo.caustics) == (False, "auto", "auto")
+    demo.adaptive, demo.guiding, demo.caustics = True, "off", "on"
+    assert (demo.adaptive, demo.guiding, demo.caustics) == (True, "off", "on")
+    with pytest.raises(restage.Error, match="caustics: 'maybe' is none of auto, on and off"):
+        demo.caustics = "maybe"
+    for _ in range(8):
         demo.undo()
+    assert (demo.adaptive, demo.guiding, demo.caustics) == (False, "auto", "auto")
     assert demo.size != (64, 48) and demo.exposure != 2.0
     assert demo.up == (0, 0, 1) and demo.bounds.shape == (2, 3) and demo.format == "pbrt-v4"
 

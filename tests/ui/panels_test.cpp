@@ -168,6 +168,15 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         IM_CHECK(!h.scene().settings.value.spectral);
         h.click(ctx, "render.spectral");
         IM_CHECK(h.scene().settings.value.spectral);
+        h.click(ctx, "render.adaptive");
+        IM_CHECK(h.scene().settings.value.adaptive);
+        IM_CHECK(h.scene().settings.value.caustics == scene::Technique::off); // by "reference"
+        h.click(ctx, "render.caustics");
+        h.click(ctx, "render.caustics.on");
+        IM_CHECK(h.scene().settings.value.caustics == scene::Technique::on);
+        h.click(ctx, "render.guiding");
+        h.click(ctx, "render.guiding.off");
+        IM_CHECK(h.scene().settings.value.guiding == scene::Technique::off);
         const std::size_t before = h.step(); // settings of this machine are not steps
         h.drag(ctx, "render.error");
         IM_CHECK(h.editor().view.error > 0);

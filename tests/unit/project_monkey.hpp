@@ -81,6 +81,7 @@ class Monkey {
                 if (pick(2)) o.samples = 1 + pick(100);
                 if (pick(2)) o.russian_roulette = !o.russian_roulette;
                 if (pick(2)) o.spectral = !o.spectral;
+                if (pick(2)) o.adaptive = !o.adaptive;
                 if (pick(2)) o.guiding = Technique(pick(3));
                 if (pick(2)) o.caustics = Technique(pick(3));
                 if (pick(2)) o.clamp_direct = x();

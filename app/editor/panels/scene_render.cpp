@@ -8,6 +8,7 @@
 #include "plugin/registry.hpp"
 #include "render/tracers.hpp"
 #include "scene/edits.hpp"
+#include "scene/techniques.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
@@ -17,6 +18,8 @@
 #include <imgui.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
+#include <array>
+#include <string>
 #include <vector>
 
 namespace restage::editor {
@@ -45,6 +48,36 @@ void scene_rows(EditContext& e) {
         "with measured indices splits light (spectral rendering)");
     changed |= ImGui::Checkbox("##spectral", &settings.spectral);
     e.mark("render.spectral");
+    form_row("Adaptive",
+             "Gives noisy parts of the picture more samples than others: Samples is their mean (adaptive sampling, "
+             "unbiased)");
+    changed |= ImGui::Checkbox("##adaptive", &settings.adaptive);
+    e.mark("render.adaptive");
+    const auto technique_row = [&](const char* label, const char* tooltip, scene::Technique& t, const char* mark) {
+        static constexpr std::array labels{"Automatic", "On", "Off"};
+        form_row(label, tooltip);
+        const std::string name = mark + 2; // without the ##
+        const bool open = ImGui::BeginCombo(mark, labels[std::size_t(t)]);
+        e.mark(name);
+        if (!open) return;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            const auto choice = scene::Technique(i);
+            if (ImGui::Selectable(labels[i], choice == t) && choice != t) {
+                t = choice;
+                changed = true;
+            }
+            e.mark(name + "." + scene::technique_names[i]);
+        }
+        ImGui::EndCombo();
+    };
+    technique_row("Guiding",
+                  "Learns where light comes from and sends paths there: less noise behind half-open doors and in the "
+                  "light of windows. Automatic: where it pays",
+                  settings.guiding, "##render.guiding");
+    technique_row("Caustics",
+                  "Light that lamps and the sun send through glass or off mirrors, by photon maps: slightly blurred, "
+                  "sharper with every sample (biased). Automatic: where the scene has any",
+                  settings.caustics, "##render.caustics");
     const auto clamp_row = [&](const char* label, const char* tooltip, float& v, const char* mark) {
         form_row(label, tooltip);
         changed |= ImGui::DragFloat(mark, &v, drag_speed(v, 0.01f), 0, 1e6f, v > 0 ? "%.3g (biased)" : "Off",
@@ -65,7 +98,7 @@ void scene_rows(EditContext& e) {
     changed |= ImGui::DragFloat("##epsilon", &settings.ray_epsilon, drag_speed(settings.ray_epsilon, 1e-6f), 0, 1,
                                 settings.ray_epsilon > 0 ? "%.2g units" : "Automatic", ImGuiSliderFlags_AlwaysClamp);
     e.mark("render.epsilon");
-    form_row("Reference", "Turns off everything biased: both limits, and the ray offset");
+    form_row("Reference", "Turns off everything biased: caustics by photon maps, both limits, and the ray offset");
     ImGui::BeginDisabled(scene::for_reference(settings) == settings);
     if (ImGui::Button("Turn off what is biased")) {
         settings = scene::for_reference(std::move(settings));
