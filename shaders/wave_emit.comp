@@ -5,6 +5,7 @@
 #include "lib/extensions.glsl"
 #include "wave_common.glsl"
 #include "lib/records.glsl"
+#include "lib/photons.glsl"
 #include "path/emission.glsl"
 
 void main() {
@@ -18,7 +19,9 @@ void main() {
     StepRay from = StepRay(ray.origin, ray.direction, ray.tfar, ray.tnear, 0u, ray.receiver);
     Surface s = surface_at(scene, inst, material, ray.prim, vec2(ray.u, ray.v), ray.tfar, from);
     if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, ray.tfar, from);
-    path.radiance += surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
+    bool counts = true;
+    if (HAS_CAUSTICS) counts = !left_to_photons(path.flags, UintArray(PhotonMapRef(FrameRef(push.frame).frame.photons).map.roles).at[ray.inst]);
+    if (counts) path.radiance += surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
     if (!finite(path.radiance)) {
         path.radiance = path.throughput = Spectrum(0);
         count_not_finite(material.type, i);

@@ -5,6 +5,7 @@
 #include "lib/extensions.glsl"
 #include "wave_common.glsl"
 #include "lib/records.glsl"
+#include "lib/photons.glsl"
 #include "path/escape.glsl"
 
 void main() {
@@ -13,7 +14,9 @@ void main() {
     address fourths = wave_fourths();
     RayArray rays = RayArray(push.rays);
     PathState path = load_path(scene, push.paths, fourths, i);
-    path_escape(scene, receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
+    bool counts = true;
+    if (HAS_CAUSTICS) counts = !left_to_photons(path.flags, PhotonMapRef(FrameRef(push.frame).frame.photons).map.environment);
+    if (counts) path_escape(scene, receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
     store_light(push.paths, fourths, i, path);
     RayArray(push.rays).at[i].tfar = -1.0;
 }

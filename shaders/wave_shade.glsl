@@ -14,6 +14,8 @@ void main() {
     InstanceData inst = load_instance(push.instances, ray.inst);
     MaterialData material = load_material(push.materials, ray.geom);
 
+    if (HAS_CAUSTICS) photons_begin(FrameRef(push.frame).frame.photons, ray.inst);
+
     StepRay shadow, next;
     Spectrum contribution;
     GuideSample guide;
@@ -52,5 +54,6 @@ void main() {
         store(out_ray, 3u, next.direction.z, 0.0);
         if (LIGHT_ROOTS > 1u) store(out_ray, 5u, next.receiver, 0u);
     }
+    if (HAS_CAUSTICS && (path.flags & PATH_PHOTON) != 0u) PhotonArray(photon_map.deposits).at[i] = photon_deposit;
     store_path(push.paths, fourths, i, path);
 }

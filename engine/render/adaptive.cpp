@@ -43,7 +43,7 @@ AdaptivePlan::AdaptivePlan(const Film& film) {
     const int width = int(image.width), height = int(image.height);
     std::vector<Pixel> pixels(image.pixels());
     for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = {luminance(image.color[i]), double(independent_variance(image, i)) * adaptive_pilot};
+        pixels[i] = {luminance(image.color[i]), double(image.luminance_variance[i]) * adaptive_pilot};
     std::vector<double> squares(image.pixels());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)

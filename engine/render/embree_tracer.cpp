@@ -3,6 +3,7 @@
 // accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
 #include "render/embree_scene.hpp"
+#include "render/photon_map.hpp"
 #include "render/sample_plan.hpp"
 #include "render/wave_kernels.hpp"
 #include "shared/wave_data.h"
@@ -38,7 +39,7 @@ static_assert(sizeof(shared::WavePush) == 128);
 
 class EmbreeTracer final : public Tracer {
   public:
-    explicit EmbreeTracer(const TracerContext& c) : c_(c), kernels_(c) {}
+    explicit EmbreeTracer(const TracerContext& c) : c_(c), kernels_(c), caustics_(c.device, c.jobs) {}
     const char* name() const override { return "embree"; }
     const EmbreeScene* embree() const override { return embree_.get(); }
 
@@ -68,6 +69,7 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
+        if (changes.image) caustics_.forget();
         return changes.shaders ? kernels_.select(scene) : Result<void>{};
     }
     bool adopt() override { return kernels_.adopt(); }
@@ -77,19 +79,13 @@ class EmbreeTracer final : public Tracer {
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
         RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
-        // A wave covers all pixels with several samples each, or some pixels with one sample each.
-        SamplePlan plan(request, film.width() * film.rows(), wave_paths, wave_paths);
-        while (going && plan.next()) {
-            if (request.keep_going && !request.keep_going()) break;
-            shared::FrameData f{};
-            f.crop_x = request.crop_x;
-            f.crop_y = request.crop_y;
-            f.crop_width = film.width();
-            f.crop_height = film.height();
-            f.seed = request.seed;
-            f.film = film.pixels();
-            f.film_guides = film.guides();
-            RESTAGE_TRY(going, wave(scene, f, plan, request.keep_going));
+        if (going && scene.features().caustics && !caustics_.started()) {
+            RESTAGE_TRY(going, find_casters(scene, film, request));
+        }
+        if (going && scene.features().caustics && caustics_.active()) {
+            RESTAGE_CHECK(trace_maps(scene, film, request));
+        } else if (going) {
+            RESTAGE_CHECK(trace_samples(scene, film, request));
         }
         return finish(scene, start);
     }
@@ -105,17 +101,134 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // False: keep_going requested a stop, and the film has nothing of this wave.
+    static shared::FrameData frame_of(const Film& film, const TraceRequest& request) {
+        shared::FrameData f{};
+        f.crop_x = request.crop_x;
+        f.crop_y = request.crop_y;
+        f.crop_width = film.width();
+        f.crop_height = film.height();
+        f.seed = request.seed;
+        f.film = film.pixels();
+        f.film_guides = film.guides();
+        return f;
+    }
+
+    // These return false if keep_going requested a stop.
+    Result<bool> trace_samples(const GpuScene& scene, const Film& film, const TraceRequest& request) {
+        // A wave covers all pixels with several samples each, or some pixels with one sample each.
+        SamplePlan plan(request, film.width() * film.rows(), wave_paths, wave_paths);
+        while (plan.next()) {
+            if (request.keep_going && !request.keep_going()) return false;
+            shared::FrameData f = frame_of(film, request);
+            RESTAGE_TRY(const bool done, wave(scene, f, plan, request.keep_going));
+            if (!done) return false;
+        }
+        return true;
+    }
+
+    // The samples of each photon map with that map.
+    Result<bool> trace_maps(const GpuScene& scene, const Film& film, const TraceRequest& request) {
+        const std::uint32_t pixels = film.width() * film.rows(), per_map = CausticPhotons::samples_per_map(pixels);
+        const PixelSamples all{request.first_sample, request.samples};
+        const auto asked = request.pixels.empty() ? std::span(&all, 1) : request.pixels;
+        std::uint32_t first = ~0u, end = 0;
+        for (const PixelSamples& s : asked)
+            if (s.count > 0) first = std::min(first, s.first), end = std::max(end, s.first + s.count);
+        std::vector<PixelSamples> part(asked.size());
+        for (std::uint32_t map = first / per_map; map * per_map < end; ++map) {
+            const auto clip = [&](const PixelSamples& s) {
+                const std::uint32_t from = std::max(s.first, map * per_map);
+                const std::uint32_t to = std::min(s.first + s.count, (map + 1) * per_map);
+                return PixelSamples{from, to > from ? to - from : 0};
+            };
+            std::ranges::transform(asked, part.begin(), clip);
+            TraceRequest of_map = request;
+            if (request.pixels.empty())
+                of_map.first_sample = part[0].first, of_map.samples = part[0].count;
+            else
+                of_map.pixels = part;
+            RESTAGE_TRY(bool going, shoot(scene, film, request, map));
+            if (going) {
+                RESTAGE_TRY(going, trace_samples(scene, film, of_map));
+            }
+            if (!going) return false;
+        }
+        return true;
+    }
+
+    // Makes photon map `map` unless it is there.
+    Result<bool> shoot(const GpuScene& scene, const Film& film, const TraceRequest& request, std::uint32_t map) {
+        if (caustics_.has(map, request.seed)) return true;
+        if (map > 0 && !caustics_.knows_radius(request.seed)) {
+            RESTAGE_TRY(const bool going, shoot(scene, film, request, 0));
+            if (!going) return false;
+        }
+        RESTAGE_TRY(const bool ready, kernels_.need_photons(request.keep_going));
+        if (!ready || (request.keep_going && !request.keep_going())) return false;
+        RESTAGE_CHECK(caustics_.begin(map, request.seed));
+        shared::FrameData f = frame_of(film, request);
+        RESTAGE_CHECK(begin_wave(scene, f));
+        RESTAGE_TRY(const bool done, bounces(scene, kernels_.photons(), CausticPhotons::paths_per_map,
+                                             request.keep_going, [&] { caustics_.collect(active_); }));
+        if (!done) return false;
+        RESTAGE_CHECK(caustics_.finish());
+        return true;
+    }
+
+    // Which instances have delta lobes is known only to materials: camera paths find out, whose samples do not count.
+    Result<bool> find_casters(const GpuScene& scene, const Film& film, const TraceRequest& request) {
+        const bool all = scene.all_caustics();
+        RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
+        const std::uint32_t pixels = film.width() * film.height(), most = std::min(pixels, wave_paths / 4);
+        std::vector<PixelSamples> some(std::size_t(film.width()) * film.rows());
+        for (std::uint32_t k = 0; k < most; ++k)
+            some[std::size_t(std::uint64_t(k) * pixels / most)] = {0, 1};
+        TraceRequest asked = request;
+        asked.pixels = some;
+        asked.seed = 0;
+        SamplePlan plan(asked, film.width() * film.rows(), wave_paths, 1);
+        if (!plan.next()) return true;
+        shared::FrameData f = frame_of(film, asked);
+        f.picks = place(plan);
+        RESTAGE_CHECK(begin_wave(scene, f));
+        casters_.assign(scene.instances().size(), 0);
+        auto done = bounces(scene, kernels_.generate(), std::uint32_t(plan.picks().size()), request.keep_going, [] {});
+        std::vector<char> found = std::exchange(casters_, {});
+        if (!done || !*done) {
+            caustics_.forget();
+            return done;
+        }
+        RESTAGE_CHECK(caustics_.start(scene, std::move(found), all));
+        return true;
+    }
+
+    // Writes the plan's wave for the kernels. The address of its samples.
+    std::uint64_t place(const SamplePlan& plan) {
+        const std::size_t count = plan.picks().size();
+        auto picks = picks_.span<shared::SamplePick>();
+        std::ranges::copy(plan.picks(), picks.begin());
+        std::fill(picks.begin() + std::ptrdiff_t(count),
+                  picks.begin() + std::ptrdiff_t(whole_groups(std::uint32_t(count))), plan.picks().back());
+        std::ranges::copy(plan.runs(), runs_.span<shared::SampleRun>().begin());
+        return picks_.address();
+    }
+
+    // False: the film has nothing of this wave.
     Result<bool> wave(const GpuScene& scene, shared::FrameData& f, const SamplePlan& plan,
                       const std::function<bool()>& keep_going) {
         const auto count = std::uint32_t(plan.picks().size()), run_count = std::uint32_t(plan.runs().size());
-        auto picks = picks_.span<shared::SamplePick>();
-        std::ranges::copy(plan.picks(), picks.begin());
-        std::fill(picks.begin() + count, picks.begin() + whole_groups(count), plan.picks().back());
-        std::ranges::copy(plan.runs(), runs_.span<shared::SampleRun>().begin());
-        f.picks = picks_.address();
+        f.picks = place(plan);
         f.runs = runs_.address();
         f.run_count = run_count;
+        RESTAGE_CHECK(begin_wave(scene, f));
+        stats_.paths += count;
+        RESTAGE_TRY(const bool done, bounces(scene, kernels_.generate(), count, keep_going, [] {}));
+        if (!done) return false;
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, run_count); }));
+        return true;
+    }
+
+    Result<void> begin_wave(const GpuScene& scene, shared::FrameData& f) {
         f.scene = scene.address();
         f.rays = rays_.address();
         f.shadows = shadows_.address();
@@ -126,6 +239,7 @@ class EmbreeTracer final : public Tracer {
                                                           gpu::BufferKind::readback, "fourth wavelengths"));
         }
         if (scene.features().spectral) f.fourths = fourths_.address();
+        if (scene.features().caustics) f.photons = caustics_.address();
         f.queue = queue_.address();
         f.counters = counters_.address();
         RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));
@@ -149,20 +263,26 @@ class EmbreeTracer final : public Tracer {
                  .clamp_direct = data.clamp_direct,
                  .clamp_indirect = data.clamp_indirect,
                  .ray_epsilon = data.ray_epsilon};
-        stats_.paths += count;
+        return {};
+    }
 
-        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.generate(), 0, count); }));
+    // Paths from the kernel that starts them to their ends; after_bounce: each time the active ones were shaded.
+    template <class AfterBounce>
+    Result<bool> bounces(const GpuScene& scene, const gpu::ComputePipeline& start, std::uint32_t count,
+                         const std::function<bool()>& keep_going, AfterBounce&& after_bounce) {
+        const std::uint32_t max_depth = scene.data().max_depth;
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, start, 0, count); }));
         active_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i)
             active_[i] = i;
         for (std::uint32_t bounce = 0;; ++bounce) {
-            trace_rays(scene, bounce >= data.max_depth);
+            trace_rays(scene, bounce >= max_depth);
             if (scene.any_undecided()) {
-                RESTAGE_TRY(const bool decided, decide(scene, bounce >= data.max_depth, keep_going));
+                RESTAGE_TRY(const bool decided, decide(scene, bounce >= max_depth, keep_going));
                 if (!decided) return false;
             }
             queue_hits(scene);
-            if (queued_ == 0) break;
+            if (queued_ == 0) return true;
             RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
@@ -174,9 +294,8 @@ class EmbreeTracer final : public Tracer {
                     if (type_count_[t] && t != type_emit)
                         dispatch(list, kernels_.shade(t), type_first_[t], type_count_[t]);
             }));
+            after_bounce();
         }
-        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, run_count); }));
-        return true;
     }
 
     void dispatch(gpu::CommandList& list, const gpu::ComputePipeline& kernel, std::uint32_t first,
@@ -286,6 +405,14 @@ class EmbreeTracer final : public Tracer {
         return shades ? std::uint8_t(scene.materials()[ray.geom].type) : type_none;
     }
 
+    // The instance that a ray left by a delta lobe.
+    void note_caster(const GpuScene& scene, std::uint32_t i) {
+        const std::uint32_t flags = paths_.span<shared::PathState>()[i].flags, inst = rays_.span<shared::RayHit>()[i].inst;
+        if ((flags & PATH_DEPTH_MASK) > 0 && (flags & PATH_SPECULAR) && inst != NONE &&
+            !(scene.instances()[inst].flags & INSTANCE_PASSES))
+            std::atomic_ref(casters_[inst]).store(1, std::memory_order_relaxed);
+    }
+
     // Next hits of these paths: types_ holds each one's type, `count` the number per type.
     std::uint32_t trace_closest(const GpuScene& scene, std::span<const std::uint32_t> active, bool last_vertex,
                                 std::array<std::uint32_t, 256>& count, Undecided* undecided) {
@@ -301,6 +428,7 @@ class EmbreeTracer final : public Tracer {
             emits_[i] = 0;
             if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
                 ++traced;
+                if (!casters_.empty()) note_caster(scene, i);
                 ray.geom = ray.inst = NONE;
                 if (undecided && intersect_undecided(scene, i, *undecided)) continue;
                 if (!undecided) embree_->intersect(ray);
@@ -491,6 +619,8 @@ class EmbreeTracer final : public Tracer {
     std::unique_ptr<EmbreeScene> embree_;
     gpu::Buffer rays_, shadows_, paths_, fourths_, guides_, queue_, counters_, picks_, runs_, frame_;
     WaveKernels kernels_;
+    CausticPhotons caustics_;
+    std::vector<char> casters_; // while they are looked for: by instance
     std::vector<Undecided> undecided_; // by chunk of active_
     gpu::Buffer asked_, decided_;
     gpu::CommandList list_;

@@ -22,6 +22,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <unordered_map>
 
 namespace restage::render {
@@ -64,6 +65,9 @@ class GpuScene {
     const TextureTypes& texture_types() const { return texture_types_; }
     const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
+    bool all_caustics() const { return all_caustics_; } // photons start from every light, not just where it pays
+    const std::vector<shared::LightData>& lights() const { return lights_.host(); }
+    const std::vector<shared::LightNode>& light_nodes() const { return light_nodes_.host(); }
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;
     const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
     // Whether rays can hit this instance.
@@ -208,6 +212,8 @@ class GpuScene {
     bool reads_files_ = false; // some material in use does; the files may have changed
     glm::vec2 filter_weight_{1};
     std::uint32_t filter_entries_ = 0;
+    bool all_caustics_ = false;
+    std::tuple<bool, scene::Technique, scene::Technique> techniques_; // adaptive, guiding, caustics: not on the device
     bool light_alpha_ = false, glow_ = false; // of SceneFeatures
 
     struct Versions {

@@ -199,7 +199,8 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {15, f.quadrics},
             {16, f.lights},
             {17, f.light_roots},
-            {18, f.curves || (type && type->curves)}};
+            {18, f.curves || (type && type->curves)},
+            {19, f.caustics}};
 }
 
 } // namespace restage::render

@@ -6,6 +6,15 @@
 
 namespace restage::render {
 
+bool MaterialType::may_be_specular() const {
+    if (!plugin.table || !plugin.table->has_code()) return false;
+    if (!plugin.source) return true;
+    return std::ranges::any_of(*plugin.source->glsl(), [](const auto& file) {
+        return file.second.find("BSDF_DELTA") != std::string::npos ||
+               file.second.find("layered.glsl") != std::string::npos;
+    });
+}
+
 MaterialLookup material_lookup(const plugin::Registry& registry) {
     return {[&registry](const std::string& type) -> std::optional<MaterialPlugin> {
                 const auto entry = registry.find_material(type);

@@ -55,6 +55,8 @@ struct MaterialType {
     bool curves = false;        // some material of the type has a measured spectrum, in spectral mode
     bool is_textured(std::size_t line) const { return line < textured.size() && textured[line]; }
     bool mix() const { return plugin.table && plugin.table->mix; }
+    // Whether its code may return delta lobes.
+    bool may_be_specular() const;
     bool null_surface() const { return plugin.table && plugin.table->null_surface; }
 };
 

@@ -50,6 +50,7 @@ class Renderer {
     std::uint32_t samples() const { return samples_; } // per pixel (adaptive: their mean), since the last reset
     std::uint32_t most_samples() const; // of a pixel
     FilmImage image() const;
+    const Film* film() const { return film_ ? &*film_ : nullptr; } // null before the first sync
     double relative_error() const { return film_ ? film_->relative_error() : 1e30; }
     void reset() {
         samples_ = 0;

@@ -31,6 +31,12 @@ constexpr unsigned mask_surfaces = 1, mask_borders = 2, mask_shadows = 4; // of 
 // Number of callables for so many types: with room for more that are added while rendering continues.
 std::size_t callable_slots(std::size_t types) { return (types / 32 + 1) * 32; }
 
+// Photon maps are the wavefront's.
+SceneFeatures without_caustics(SceneFeatures f) {
+    f.caustics = false;
+    return f;
+}
+
 struct Rectangle {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
@@ -214,7 +220,7 @@ class VulkanTracer final : public Tracer {
                 stand_in = shader(compose_stand_in(types[placeholder], "trace_material.glsl",
                                                    gpu::ShaderStage::callable, color_mode(scene.features())));
             r.callables.push_back(stand_in);
-            r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy));
+            r.callable_constants.push_back(spec_constants(without_caustics(scene.features()), true, c_.strategy));
         };
         bool mixes = c_.stand_ins;
         for (const MaterialType& type : types) {
@@ -223,7 +229,7 @@ class VulkanTracer final : public Tracer {
                 r.callables.push_back(shader(compose_material(
                     type, "trace_material.glsl", gpu::ShaderStage::callable, color_mode(scene.features()),
                     evaluates_textures(scene.features(), type) ? scene.texture_types() : TextureTypes())));
-                r.callable_constants.push_back(spec_constants(scene.features(), true, c_.strategy, &type));
+                r.callable_constants.push_back(spec_constants(without_caustics(scene.features()), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
                 add_stand_in();
             } else { // never called (mixes are resolved earlier, interfaces are passed), but keeps its index
@@ -233,7 +239,7 @@ class VulkanTracer final : public Tracer {
         }
         while (c_.stand_ins && r.callables.size() < callable_slots(types.size()))
             add_stand_in();
-        r.constants = spec_constants(scene.features(), true, c_.strategy);
+        r.constants = spec_constants(without_caustics(scene.features()), true, c_.strategy);
         r.constants.push_back({9, mixes});
         return r;
     }

@@ -25,7 +25,7 @@ Result<void> WaveKernels::select(const GpuScene& scene) {
         slots_[i].settled = slots_[i].shown = false;
         slots_[i].wanted = nullptr;
     }
-    for (Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_}) {
+    for (Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_, &photons_}) {
         slot->settled = false;
         slot->wanted = nullptr;
     }
@@ -53,7 +53,7 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
     if (&slot == &decide_) r.push_constant_bytes = sizeof(shared::DecidePush);
-    if (&slot == &decide_ || (&slot == &emit_ && (features_.emission_textures || features_.light_alpha)))
+    if (&slot == &decide_ || ((&slot == &emit_ || &slot == &photons_) && (features_.emission_textures || features_.light_alpha)))
         insert_textures(texture_types_, r.shader);
     return r;
 }
@@ -95,6 +95,11 @@ Result<bool> WaveKernels::begin(const std::function<bool()>& keep_going) {
 Result<bool> WaveKernels::need_decide(const std::function<bool()>& keep_going) {
     RESTAGE_CHECK(ask(decide_));
     return wait(decide_, keep_going);
+}
+
+Result<bool> WaveKernels::need_photons(const std::function<bool()>& keep_going) {
+    RESTAGE_CHECK(ask(photons_));
+    return wait(photons_, keep_going);
 }
 
 Result<bool> WaveKernels::need(std::span<const std::uint32_t> hits, const std::function<bool()>& keep_going) {
@@ -166,7 +171,7 @@ void WaveKernels::film_emptied() {
 
 std::size_t WaveKernels::shader_bytes() const {
     std::size_t sum = 0;
-    for (const Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_})
+    for (const Slot* slot : {&generate_, &emit_, &escape_, &accumulate_, &stand_in_, &decide_, &photons_})
         if (slot->now) sum += slot->now->shader_bytes();
     for (const Slot& slot : slots_)
         if (slot.now) sum += slot.now->shader_bytes();

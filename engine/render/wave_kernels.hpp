@@ -29,6 +29,10 @@ class WaveKernels {
     const gpu::ComputePipeline& accumulate() const { return *accumulate_.now; }
     const gpu::ComputePipeline& shade(std::size_t type) const; // after need(); pseudo types too
 
+    // The start of photons. False: keep_going requested a stop.
+    Result<bool> need_photons(const std::function<bool()>& keep_going);
+    const gpu::ComputePipeline& photons() const { return *photons_.now; } // after need_photons()
+
     // Of wave_decide.comp, for hits that native code cannot decide. False: keep_going requested a stop.
     Result<bool> need_decide(const std::function<bool()>& keep_going);
     const gpu::ComputePipeline& decide() const { return *decide_.now; } // after need_decide()
@@ -60,7 +64,8 @@ class WaveKernels {
     std::uint32_t stand_in_type_ = 0;
     std::vector<Slot> slots_; // by type
     Slot generate_{.what = "wave_generate.comp"}, emit_{.what = "wave_emit.comp"}, escape_{.what = "wave_escape.comp"},
-        accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"}, decide_{.what = "wave_decide.comp"};
+        accumulate_{.what = "wave_accumulate.comp"}, stand_in_{.what = "stand-in"}, decide_{.what = "wave_decide.comp"},
+        photons_{.what = "wave_photons.comp"};
 };
 
 } // namespace restage::render

@@ -13,6 +13,7 @@
 #include "lib/sampler.glsl"
 #include "path/emission.glsl"
 #include "path/film.glsl"
+#include "path/photons.glsl"
 #ifdef MATERIAL_SITE
 #include "lib/site.glsl"
 #endif
@@ -85,6 +86,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         guide.material_id = material_data.id;
     }
     bool last = depth >= scene.max_depth;
+    bool photon = HAS_CAUSTICS && (path.flags & PATH_PHOTON) != 0u;
     Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
     uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
     float u_lobe = to_unit(sample_bits(path.seed, path.sample_index, pair_lobe(depth)).x);
@@ -94,7 +96,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     // Next-event estimation
     if (LIGHT_ROOTS > 0u) {
         LightSample light = light_sample(scene, receiver_at(s.p, receiver), pick.x, sample_bits(path.seed, path.sample_index, pair_light(depth)));
-        if (!last && light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
+        if (!last && !photon && light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
@@ -129,6 +131,10 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
+    if (HAS_CAUSTICS && (photon ? depth > 0u : !last && photon_map.count > 0u) && scatters(m, wo, b, rng)) {
+        if (photon) photon_stop(s, wo_world, path.radiance * path.throughput);
+        else path.radiance += clamp_contribution(scene, path.throughput * gather_photons(m, s, wo_world, rng), depth + 1u);
+    }
     Spectrum colors = shadow_contribution + path.radiance;
     vec3 others = vec3(0);
     if (shadow.tmax > 0.0) others += shadow.origin + shadow.direction;
@@ -146,15 +152,21 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     bool same_side = dot(wi_world, s.ng) * dot(wo_world, s.ng) > 0.0;
     if (same_side != ((b.flags & BSDF_REFLECT) != 0u)) return true;
     path.throughput *= b.weight;
+    bool delta = (b.flags & BSDF_DELTA) != 0u;
+    if (photon) { // power, not radiance, which refraction scales by eta^2
+        if (!delta || (photon_role & ROLE_CASTER) == 0u) return true;
+        path.throughput *= sqr(b.eta) * shading_correction(s, wo_world, wi_world);
+    }
     path.pdf = b.pdf;
     path.eta_scale *= b.eta * b.eta;
     if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
         path.medium = dot(wi_world, s.ng) > 0.0 ? inst.exterior : inst.interior;
-    path.flags = (depth + 1u) | (path.flags & PATH_HERO) | ((b.flags & BSDF_DELTA) != 0u ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u);
+    path.flags = (depth + 1u) | (path.flags & PATH_HERO) | (delta ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u) |
+                 (HAS_CAUSTICS ? photon_flags(path.flags, photon_role, delta) : 0u);
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2
     // ... and not while the denoiser's guide is still ahead
-    if (scene.russian_roulette != 0u && depth > 0u && !(HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u)) {
+    if (scene.russian_roulette != 0u && depth > 0u && !photon && !(HAS_GUIDES && (path.flags & PATH_GUIDED) != 0u)) {
         float survive = max_component(abs(path.throughput)) * path.eta_scale / ROULETTE_LEVEL; // signed by some pixel filters
         if (survive < 1.0) {
             if (to_unit(pick.y) >= survive) return true;

@@ -16,8 +16,8 @@ RESTAGE_CONSTANTS_BEGIN
 RESTAGE_UINT(PATH_SPECULAR, 0x10000u); // the last bounce was a delta lobe (or the camera)
 RESTAGE_UINT(PATH_GUIDED, 0x20000u); // the denoiser's guide is still ahead: only delta bounces so far
 RESTAGE_UINT(PATH_HERO, 0x40000u); // only the hero wavelength is left: it went through something dispersive
-RESTAGE_UINT(PATH_GATHERED, 0x80000u); // photons were gathered at a vertex behind it
-RESTAGE_UINT(PATH_CAUSTIC, 0x100000u); // and only specular bounces since: what it finds now, those photons carried
+RESTAGE_UINT(PATH_CAUSTIC, 0x80000u); // since a scattering vertex, it met only casters: photons carry what it finds so
+RESTAGE_UINT(PATH_PHOTON, 0x100000u); // it started at a light; `radiance` is its power at the start
 RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
 RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
 RESTAGE_UINT(COUNTER_RAYS, 64u);
@@ -121,6 +121,7 @@ struct FrameData { // behind the push constant
     address film; // FilmPixel[]
     address film_guides; // GuidePixel[]
     address counters; // uint[COUNTER_COUNT]
+    address photons; // PhotonMap, where HAS_CAUSTICS
     address picks; // SamplePick[], of each path; 0: the ray-tracing pipeline takes a rectangle
     address runs; // SampleRun[run_count], in a wave
     uint run_count;
