@@ -70,8 +70,10 @@ double AdaptivePlan::factor(double mean) const {
     std::size_t lower = 1, upper = sorted_.size();
     while (lower < upper) {
         const std::size_t k = (lower + upper + 1) / 2;
-        if (given(k) * sorted_[k - 1] >= adaptive_pilot) lower = k;
-        else upper = k - 1;
+        if (given(k) * sorted_[k - 1] >= adaptive_pilot)
+            lower = k;
+        else
+            upper = k - 1;
     }
     return given(lower);
 }

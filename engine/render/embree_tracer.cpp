@@ -192,8 +192,10 @@ class EmbreeTracer final : public Tracer {
         f.picks = place(plan);
         RESTAGE_CHECK(begin_wave(scene, f));
         casters_.assign(scene.instances().size(), 0);
+        const TraceStats before = stats_; // these are no samples
         auto done = bounces(scene, kernels_.generate(), std::uint32_t(plan.picks().size()), request.keep_going, [] {});
         std::vector<char> found = std::exchange(casters_, {});
+        stats_.rays = before.rays, stats_.shadow_rays = before.shadow_rays;
         if (!done || !*done) {
             caustics_.forget();
             return done;
@@ -407,7 +409,8 @@ class EmbreeTracer final : public Tracer {
 
     // The instance that a ray left by a delta lobe.
     void note_caster(const GpuScene& scene, std::uint32_t i) {
-        const std::uint32_t flags = paths_.span<shared::PathState>()[i].flags, inst = rays_.span<shared::RayHit>()[i].inst;
+        const std::uint32_t flags = paths_.span<shared::PathState>()[i].flags,
+                            inst = rays_.span<shared::RayHit>()[i].inst;
         if ((flags & PATH_DEPTH_MASK) > 0 && (flags & PATH_SPECULAR) && inst != NONE &&
             !(scene.instances()[inst].flags & INSTANCE_PASSES))
             std::atomic_ref(casters_[inst]).store(1, std::memory_order_relaxed);

@@ -15,7 +15,7 @@ namespace restage::render {
 namespace {
 
 constexpr double alpha = 2.0 / 3;       // of the squared radius that a map leaves: Knaus and Zwicker 2011, sec. 5
-constexpr std::size_t neighbours = 24;  // photons within the first radius, at the median photon
+constexpr std::size_t neighbours = 10;  // photons within the first radius, at the median photon
 constexpr std::size_t probes = 256;     // photons whose neighbours are looked for
 constexpr double small = 0.1; // solid angle [sr] of a light, seen from casters, below which paths rarely find it
 
@@ -38,8 +38,8 @@ Box world_box(const GpuScene& scene, std::uint32_t i) {
     const glm::mat4x3 m = scene.placement(i);
     Box box;
     for (int k = 0; k < 8; ++k) {
-        const glm::dvec3 p(m * glm::vec4(k & 1 ? upper.x : lower.x, k & 2 ? upper.y : lower.y,
-                                         k & 4 ? upper.z : lower.z, 1));
+        const glm::dvec3 p(
+            m * glm::vec4(k & 1 ? upper.x : lower.x, k & 2 ? upper.y : lower.y, k & 4 ? upper.z : lower.z, 1));
         box.add({p, p});
     }
     return box;
@@ -191,8 +191,8 @@ void CausticPhotons::find_sources(const GpuScene& scene, const std::function<boo
             power = luminance(light.value) * casters_seen(light.a);
         } else if (!(light.kind & LIGHT_PAIR_END) && pays(node)) {
             const glm::vec3 center = kind == LIGHT_QUADRIC ? node.center : light.a + (light.b + light.c) / 3.f;
-            const double area = kind == LIGHT_QUADRIC ? double(node.radius) * node.radius * 4 * std::numbers::pi
-                                                      : double(light.area);
+            const double area =
+                kind == LIGHT_QUADRIC ? double(node.radius) * node.radius * 4 * std::numbers::pi : double(light.area);
             power = luminance(light.value) * area * casters_seen(center);
         }
         add_source(i, power);

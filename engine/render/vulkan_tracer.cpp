@@ -229,7 +229,8 @@ class VulkanTracer final : public Tracer {
                 r.callables.push_back(shader(compose_material(
                     type, "trace_material.glsl", gpu::ShaderStage::callable, color_mode(scene.features()),
                     evaluates_textures(scene.features(), type) ? scene.texture_types() : TextureTypes())));
-                r.callable_constants.push_back(spec_constants(without_caustics(scene.features()), true, c_.strategy, &type));
+                r.callable_constants.push_back(
+                    spec_constants(without_caustics(scene.features()), true, c_.strategy, &type));
             } else if (plain || c_.stand_ins) {
                 add_stand_in();
             } else { // never called (mixes are resolved earlier, interfaces are passed), but keeps its index
@@ -309,8 +310,8 @@ class VulkanTracer final : public Tracer {
     Result<void> trace_picks(const Film& film, const TraceRequest& request, shared::FrameData& f) {
         constexpr std::uint32_t most = 1 << 16;
         if (!picks_) {
-            RESTAGE_TRY(picks_, c_.device.create_buffer(most * sizeof(shared::SamplePick), gpu::BufferKind::host,
-                                                        "samples"));
+            RESTAGE_TRY(picks_,
+                        c_.device.create_buffer(most * sizeof(shared::SamplePick), gpu::BufferKind::host, "samples"));
         }
         f.picks = picks_.address();
         SamplePlan plan(request, film.width() * film.rows(), most, 1);

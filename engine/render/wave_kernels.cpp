@@ -53,7 +53,8 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
     if (&slot == &decide_) r.push_constant_bytes = sizeof(shared::DecidePush);
-    if (&slot == &decide_ || ((&slot == &emit_ || &slot == &photons_) && (features_.emission_textures || features_.light_alpha)))
+    if (&slot == &decide_ ||
+        ((&slot == &emit_ || &slot == &photons_) && (features_.emission_textures || features_.light_alpha)))
         insert_textures(texture_types_, r.shader);
     return r;
 }

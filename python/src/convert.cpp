@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "convert.hpp"
 
-#include "scene/techniques.hpp"
-
 #include <charconv>
 #include <memory>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/result.hpp"
-#include "scene/scene.hpp"
+#include "scene/techniques.hpp"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>

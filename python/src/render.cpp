@@ -113,9 +113,9 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
                                 std::optional<double> error, std::uint32_t seed, const nb::object& denoised,
                                 const nb::object& callback, unsigned threads, std::optional<std::uint32_t> max_depth,
                                 std::optional<bool> spectral, std::optional<bool> adaptive,
-                                const std::optional<std::string>& guiding,
-                                const std::optional<std::string>& caustics, std::uint32_t first_sample, const std::string& tracer,
-                                const std::string& device, const std::string& denoiser, bool reference) {
+                                const std::optional<std::string>& guiding, const std::optional<std::string>& caustics,
+                                std::uint32_t first_sample, const std::string& tracer, const std::string& device,
+                                const std::string& denoiser, bool reference) {
     if (int(samples.has_value()) + int(seconds.has_value()) + int(error.has_value()) > 1)
         throw Failure("render: give one of samples, seconds and error");
     if ((samples && *samples == 0) || (seconds && !(*seconds > 0)) || (error && !(*error > 0)))
@@ -187,8 +187,8 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "render", &render, "size"_a = nb::none(), "samples"_a = nb::none(), "seconds"_a = nb::none(),
         "error"_a = nb::none(), "seed"_a = 0, "denoise"_a = false, "progress"_a = nb::none(), "threads"_a = 0,
         "max_depth"_a = nb::none(), "spectral"_a = nb::none(), "adaptive"_a = nb::none(), "guiding"_a = nb::none(),
-        "caustics"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "",
-        "denoiser"_a = "", "reference"_a = false,
+        "caustics"_a = nb::none(), "first_sample"_a = 0, "tracer"_a = "", "device"_a = "", "denoiser"_a = "",
+        "reference"_a = false,
         "Path-traces the scene as it is now; returns a Picture. The same seed gives the same picture.\n\n"
         "size: (width, height) [pixel], default Session.size. Target: samples per pixel (default Session.samples), or\n"
         "seconds, or error (relative standard error, 0.02). denoise: True, or fast, balanced, high. threads: 0 = all.\n"
@@ -197,13 +197,15 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         "Picture.finished is False. Ctrl-C raises KeyboardInterrupt. Other Python threads run meanwhile, and may "
         "edit:\n"
         "a copy is rendered. first_sample: see restage.merge. tracer: see Picture.tracer; device: part of its name.\n"
-        "spectral: trace wavelengths instead of RGB, default Session.spectral. adaptive: more samples where it is noisy.\n"
+        "spectral: trace wavelengths instead of RGB, default Session.spectral. adaptive: more samples where it is "
+        "noisy.\n"
         "guiding, caustics: auto, on or off, default Session.guiding and .caustics. denoiser: see Picture.denoise.\n"
         "reference: turns off everything biased, whatever Session says.",
         nb::sig("def render(self, size: tuple[int, int] | None = None, samples: int | None = None, "
                 "seconds: float | None = None, error: float | None = None, seed: int = 0, denoise: bool | str = False, "
                 "progress: collections.abc.Callable[[Progress], bool | None] | None = None, threads: int = 0, "
-                "max_depth: int | None = None, spectral: bool | None = None, adaptive: bool | None = None, guiding: str | None = None, "
+                "max_depth: int | None = None, spectral: bool | None = None, adaptive: bool | None = None, guiding: "
+                "str | None = None, "
                 "caustics: str | None = None, first_sample: int = 0, tracer: str = '', "
                 "device: str = '', denoiser: str = '', reference: bool = False) -> Picture"));
 }

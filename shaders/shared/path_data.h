@@ -62,10 +62,10 @@ struct PathState {
     RESTAGE_CARRIED throughput;
     float pdf; // of the last BSDF sample, solid angle
     RESTAGE_CARRIED radiance;
-    uint flags;       // depth | PATH_*
-    float eta_scale;  // product of eta^2 on transmissions; Russian roulette factors it out
+    uint flags; // depth | PATH_*
+    float eta_scale; // product of eta^2 on transmissions; Russian roulette factors it out
     uint medium;
-    uint seed;        // of the pixel's random numbers
+    uint seed; // of the pixel's random numbers
     uint sample_index;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photon maps of caustics: light that went through glass or off mirrors before it met anything else. render/photon_map.hpp.
+// Photon maps of caustics: light that went through glass or off mirrors before it met anything else.
+// render/photon_map.hpp.
 #ifndef RESTAGE_SHARED_PHOTON_DATA_H
 #define RESTAGE_SHARED_PHOTON_DATA_H
 #include "shared/address.h"

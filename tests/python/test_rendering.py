@@ -90,6 +90,37 @@ def test_a_reference_has_no_limits_of_the_scene(scenes, tmp_path):
     assert limited < 0.95 * whole
 
 
+def test_adaptive_sampling_keeps_the_mean(cornell):
+    plain, adaptive = (cornell.render(size=(32, 32), samples=48, adaptive=a) for a in (False, True))
+    assert adaptive.samples == plain.samples == 48
+    assert not np.array_equal(adaptive.color, plain.color)
+    assert adaptive.color.mean() == pytest.approx(plain.color.mean(), rel=0.02)
+    part = cornell.render(size=(32, 32), samples=48, adaptive=True, first_sample=48)  # not adaptive: to be merged
+    assert np.array_equal(part.color, cornell.render(size=(32, 32), samples=48, first_sample=48).color)
+
+
+def test_caustics_are_found_where_paths_cannot(tmp_path):
+    (tmp_path / "s.pbrt").write_text("""LookAt 0 -3 0.3  0 0 0  0 0 1
+Camera "perspective" "float fov" 30
+WorldBegin
+LightSource "point" "point3 from" [0 0 3] "rgb I" [20 20 20]
+Material "diffuse"
+Shape "disk" "float radius" 2
+Material "dielectric"
+Translate 0 0 1
+Shape "disk" "float radius" 4
+Translate 0 0 0.1
+Shape "disk" "float radius" 4
+""")
+    with restage.open(tmp_path / "s.pbrt") as scene:
+        by_paths = scene.render(size=(24, 24), samples=8, caustics="off").color.mean()
+        found = scene.render(size=(24, 24), samples=8).color.mean()
+        reference = scene.render(size=(24, 24), samples=8, reference=True).color.mean()
+        with pytest.raises(restage.Error, match="caustics: 'yes' is none of auto, on and off"):
+            scene.render(size=(24, 24), samples=8, caustics="yes")
+    assert by_paths == reference < 0.01 * found
+
+
 def test_exposure_scales_colour_and_error_alike(cornell):
     plain = cornell.render(size=(16, 16), samples=4)
     cornell.exposure = 4.0

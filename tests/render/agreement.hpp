@@ -15,8 +15,9 @@ struct Traced {
     render::TraceStats stats;
 };
 
-inline Traced trace_scene(const std::string& tracer, const scene::Scene& scene, std::uint32_t samples,
-                          std::uint32_t seed) {
+// By paths alone: only one of the tracers has photon maps and guiding.
+inline Traced trace_scene(const std::string& tracer, scene::Scene scene, std::uint32_t samples, std::uint32_t seed) {
+    scene.settings.value.caustics = scene.settings.value.guiding = scene::Technique::off;
     render::RendererOptions options;
     options.seed = seed;
     const auto renderer = make_renderer(tracer, options);

@@ -25,7 +25,9 @@ scene::Light lamp(scene::LightKind kind, glm::vec3 value, const glm::dmat4& ligh
     return l;
 }
 // From a lamp that shines along +z to one that shines along -z.
-glm::dmat4 downwards(glm::dvec3 at) { return glm::translate(glm::dmat4(1), at) * glm::scale(glm::dmat4(1), {1, -1, -1}); }
+glm::dmat4 downwards(glm::dvec3 at) {
+    return glm::translate(glm::dmat4(1), at) * glm::scale(glm::dmat4(1), {1, -1, -1});
+}
 
 // Looks at the floor around the origin from below everything else.
 void watch_floor(SceneBuilder& b) {
@@ -106,7 +108,8 @@ TEST_CASE("caustics: photons carry the light that paths find") {
     if (light == "environment")
         b.environment(glm::vec3(0.5f, 0.4f, 0.3f));
     else if (light == "sphere")
-        b.instance(b.sphere(16, 32), b.diffuse(0, 0, 0), placed({0.5, 0.3, 3}, 0.5), scene::Emission{glm::vec3(4, 3, 2)});
+        b.instance(b.sphere(16, 32), b.diffuse(0, 0, 0), placed({0.5, 0.3, 3}, 0.5),
+                   scene::Emission{glm::vec3(4, 3, 2)});
     else
         b.instance(b.quad({-1, -1, 3}, {-1, 1, 3}, {1, 1, 3}, {1, -1, 3}), b.diffuse(0, 0, 0), glm::dmat4(1),
                    scene::Emission{glm::vec3(4, 3, 2)});
@@ -117,7 +120,8 @@ TEST_CASE("caustics: photons carry the light that paths find") {
     const Mean photons = mean_luminance(render_image(*renderer, b.scene, 512));
     INFO(light << ": paths " << paths.value << " +- " << paths.std_error << ", photons " << photons.value << ": "
                << photons.value / paths.value - 1);
-    CHECK(std::abs(photons.value - paths.value) < 0.01 * paths.value + 3 * std::hypot(paths.std_error, photons.std_error));
+    CHECK(std::abs(photons.value - paths.value) <
+          0.01 * paths.value + 3 * std::hypot(paths.std_error, photons.std_error));
     CHECK(photons.value != paths.value);
 }
 
@@ -146,7 +150,9 @@ TEST_CASE("caustics: scenes without casters are what they were") {
     b.set_camera({0, -5, 2}, {0, 0, 0.4}, {0, 0, 1}, 40);
     ground(b, 0.4f);
     const bool rough = GENERATE(false, true);
-    b.instance(b.sphere(), rough ? b.material("dielectric", numbers({{"uroughness", 0.3f}, {"vroughness", 0.3f}})) : b.diffuse(0.5f, 0.5f, 0.5f),
+    b.instance(b.sphere(),
+               rough ? b.material("dielectric", numbers({{"uroughness", 0.3f}, {"vroughness", 0.3f}}))
+                     : b.diffuse(0.5f, 0.5f, 0.5f),
                placed({0, 0, 0.8}, 0.6));
     b.light(lamp(scene::LightKind::point, glm::vec3(5), downwards({0.5, 0, 3})));
     const auto renderer = make_renderer("embree");
