@@ -14,6 +14,7 @@
 #include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
+#include "lib/words.glsl"
 #include "shared/lamps.h"
 
 // Density, in solid angle from a point `dist` away, of sampling a point on a triangle light of this area.
@@ -66,7 +67,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
         x = cdf_left(draw, bits.x);
         index += draw.index;
     }
-    LightData light = lights.at[index];
+    LightData light = load_light(scene.lights, index);
     pmf *= light.pmf;
     uint kind = light.kind & 255u;
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {

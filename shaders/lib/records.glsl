@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The records that every path reads, loaded in 64-bit words. On lavapipe a load through an address is a test and a move
-// per lane, whatever its width, and most of a kernel's time goes there; other devices merge loads by themselves.
+// The records that every path reads, loaded in 64-bit words.
 #ifndef RESTAGE_LIB_RECORDS
 #define RESTAGE_LIB_RECORDS
 #include "lib/scene.glsl"
 #include "lib/spectral.glsl"
+#include "lib/words.glsl"
 #include "shared/path_data.h"
-
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer WordPairs { uint64_t at[]; };
-
-uvec2 pair_at(WordPairs words, uint k) { return unpackUint2x32(words.at[k]); }
-vec2 floats_at(WordPairs words, uint k) { return uintBitsToFloat(pair_at(words, k)); }
 
 RayHit load_ray(address rays, uint i) {
     WordPairs w = WordPairs(rays + uint64_t(i) * 80ul);

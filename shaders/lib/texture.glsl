@@ -7,6 +7,7 @@
 #define RESTAGE_LIB_TEXTURE
 #include "lib/scene.glsl"
 #include "lib/spectral.glsl"
+#include "lib/words.glsl"
 #include <restage/v1/texture.glsl>
 #ifdef RESTAGE_TEXTURE_SITES
 #include "lib/site.glsl"
@@ -22,10 +23,10 @@ vec4 texel(ImageData image, ivec2 p, uint wrap) {
     p = clamp(p, ivec2(0), size - 1);
     uint i = uint(p.y) * image.width + uint(p.x);
     if (image.format == TEXEL_HALF4) {
-        uvec2 h = Uvec2Array(image.texels).at[i];
+        uvec2 h = pair_at(WordPairs(image.texels), i);
         return vec4(unpackHalf2x16(h.x), unpackHalf2x16(h.y));
     }
-    return Vec4Array(image.texels).at[i];
+    return vec4(floats_at(WordPairs(image.texels), 2u * i), floats_at(WordPairs(image.texels), 2u * i + 1u));
 }
 
 // st: s to the right, t *upwards* (pbrt): row 0 of the image is at t = 1.

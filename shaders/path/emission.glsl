@@ -29,7 +29,7 @@ Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 ba
     if (c <= 0.0) return Spectrum(0);
     float w = 1.0;
     if (LIGHT_ROOTS > 0u && (path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2 && inst.light_base != NONE) {
-        LightData light = LightArray(scene.lights).at[inst.light_base + prim];
+        LightData light = load_light(scene.lights, inst.light_base + prim);
         float pdf_light = light.pmf * light_choice_pmf(scene, receiver_at(ray.origin, ray.receiver), light.node);
         if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
             pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);

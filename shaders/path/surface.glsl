@@ -8,6 +8,7 @@
 #include "lib/ray_offset.glsl"
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
+#include "lib/words.glsl"
 #include "shared/normal.h"
 #include <restage/v1/frame.glsl>
 
@@ -127,10 +128,9 @@ vec3 refined_hit(InstanceData inst, vec3 e1, vec3 e2, vec3 p, vec3 ng, vec3 orig
 Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, uint prim, vec2 bary, vec3 origin, vec3 direction,
                      float t) {
     Surface s;
-    uvec3 tri = Uvec3Array(inst.indices).at[prim];
-    Vec3Array positions = Vec3Array(inst.positions);
-    vec3 p0 = positions.at[tri.x];
-    vec3 e1 = positions.at[tri.y] - p0, e2 = positions.at[tri.z] - p0;
+    uvec3 tri = uvec3_at(inst.indices, prim);
+    vec3 p0 = vec3_at(inst.positions, tri.x);
+    vec3 e1 = vec3_at(inst.positions, tri.y) - p0, e2 = vec3_at(inst.positions, tri.z) - p0;
     vec3 p = p0 + (bary.x * e1 + bary.y * e2);
     s.p = inst.object_to_world * vec4(p, 1.0);
     vec3 ng = normalize(inst.normal_to_world * cross(e1, e2));
@@ -138,8 +138,8 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     float along = 0.0;
     bool shaded = false;
     if ((inst.flags & INSTANCE_HAS_NORMALS) != 0u) {
-        Vec3Array normals = Vec3Array(inst.normals);
-        vec3 n = (1.0 - bary.x - bary.y) * normals.at[tri.x] + bary.x * normals.at[tri.y] + bary.y * normals.at[tri.z];
+        vec3 n = (1.0 - bary.x - bary.y) * vec3_at(inst.normals, tri.x) + bary.x * vec3_at(inst.normals, tri.y) +
+                 bary.y * vec3_at(inst.normals, tri.z);
         n = inst.normal_to_world * n;
         float l = dot(n, n);
         if (l > 0.0) {
@@ -159,10 +159,9 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     vec2 uv = bary;
     vec2 duv1 = vec2(1, 0), duv2 = vec2(0, 1);
     if ((HAS_TEXTURES || HAS_TANGENTS) && (inst.flags & INSTANCE_HAS_UVS) != 0u) {
-        Vec2Array uvs = Vec2Array(inst.uvs);
-        vec2 uv0 = uvs.at[tri.x];
-        duv1 = uvs.at[tri.y] - uv0;
-        duv2 = uvs.at[tri.z] - uv0;
+        vec2 uv0 = vec2_at(inst.uvs, tri.x);
+        duv1 = vec2_at(inst.uvs, tri.y) - uv0;
+        duv2 = vec2_at(inst.uvs, tri.z) - uv0;
         uv = uv0 + bary.x * duv1 + bary.y * duv2;
     }
     s.uv = vec4(uv, HAS_TEXTURES ? second_uv(inst, tri, bary, uv) : uv);
