@@ -144,7 +144,7 @@ Start start_photon(SceneData scene, PhotonMap map, uint index) {
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
         LightSample e = environment_sample(scene.environment, place);
         if (e.pdf > 0.0) s = start_parallel(map, -e.wi, e.radiance / e.pdf, u);
-    } else if (HAS_LAMPS && kind == LIGHT_LAMP + LAMP_DISTANT) {
+    } else if (HAS_LAMPS && kind >= LIGHT_LAMP && lamp_is_parallel(kind - LIGHT_LAMP)) {
         s = start_parallel(map, light.b, stored_spectrum(light.value), u);
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP) {
         float pdf;

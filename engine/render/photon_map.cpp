@@ -185,7 +185,7 @@ void CausticPhotons::find_sources(const GpuScene& scene, const std::function<boo
         const shared::LightNode& node = scene.light_nodes()[light.node];
         double power = 0;
         if (kind == LIGHT_ENVIRONMENT) continue;
-        if (kind == LIGHT_LAMP + LAMP_DISTANT) {
+        if (kind >= LIGHT_LAMP && shared::lamp_is_parallel(kind - LIGHT_LAMP)) {
             power = luminance(light.value) * shadow;
         } else if (kind >= LIGHT_LAMP) {
             power = luminance(light.value) * casters_seen(light.a);

@@ -18,10 +18,13 @@ struct LampRay {
     float amount; // irradiance at normal incidence, in multiples of the light's value
 };
 
+// Whether its light arrives everywhere from the same direction, -axis.
+RESTAGE_INLINE bool lamp_is_parallel(uint lamp) { return lamp == LAMP_DISTANT; }
+
 // position; axis: unit, the direction of emission; cone: cosine of the edge, of where it begins to fade, and 1 =
 // quartic.
 RESTAGE_INLINE LampRay lamp_ray(uint lamp, vec3 position, vec3 axis, vec3 cone, vec3 p) {
-    if (lamp == LAMP_DISTANT) return LampRay(-axis, 1e30f, 1.0f);
+    if (lamp_is_parallel(lamp)) return LampRay(-axis, 1e30f, 1.0f);
     vec3 d = position - p;
     float d2 = dot(d, d);
     if (d2 <= 0.0f) return LampRay(vec3(0), 0.0f, 0.0f);
