@@ -237,6 +237,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     ProgressBar bar(context.quiet);
     bar.show(0, label + "preparing shaders and acceleration structures");
     bool revived = false;
+    renderer.plan(o.seconds > 0 || o.error > 0 ? 1u << 24 : o.spp);
     RESTAGE_CHECK(renderer.or_revive(renderer.sync(scene), scene, revived));
     const double start = now_seconds(), cpu_start = cpu_seconds();
     const std::uint32_t file_spp = scene.settings.value.samples ? scene.settings.value.samples : 64;

@@ -52,7 +52,7 @@ void main() {
         store(out_ray, 1u, next.origin.z, next.tmin);
         store(out_ray, 2u, next.direction.x, next.direction.y);
         store(out_ray, 3u, next.direction.z, 0.0);
-        if (LIGHT_ROOTS > 1u) store(out_ray, 5u, next.receiver, 0u);
+        store(out_ray, 5u, next.receiver, 0u);
     }
     if (HAS_CAUSTICS && (path.flags & PATH_PHOTON) != 0u) PhotonArray(photon_map.deposits).at[i] = photon_deposit;
     store_path(push.paths, fourths, i, path);

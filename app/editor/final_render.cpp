@@ -80,6 +80,7 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     RESTAGE_TRY(const auto renderer, render::Renderer::create(options, render::material_lookup(registry), log));
     job.report(0, "preparing shaders and acceleration structures");
     bool revived = false;
+    renderer->plan(wish.samples);
     RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     // Denoising is a small part at the end of the bar.
     const bool denoise = wish.denoise && !registry.denoisers().empty();

@@ -3,6 +3,7 @@
 // accumulate; between two bounces one CPU pass lets Embree answer the shadow rays of the last vertex and find the next
 // hits, in natural path order and in place, and queues each hit for its type's kernel.
 #include "render/embree_scene.hpp"
+#include "render/guiding.hpp"
 #include "render/photon_map.hpp"
 #include "render/sample_plan.hpp"
 #include "render/wave_kernels.hpp"
@@ -70,6 +71,7 @@ class EmbreeTracer final : public Tracer {
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
         if (changes.image) caustics_.forget();
+        if (changes.shaders) guided_kernels_.reset();
         return changes.shaders ? kernels_.select(scene) : Result<void>{};
     }
     bool adopt() override { return kernels_.adopt(); }
@@ -78,7 +80,9 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
-        RESTAGE_TRY(bool going, kernels_.begin(request.keep_going));
+        RESTAGE_CHECK(choose_kernels(scene, request.guiding));
+        learning_ = false;
+        RESTAGE_TRY(bool going, running_->begin(request.keep_going));
         if (going && scene.features().caustics && !caustics_.started()) {
             RESTAGE_TRY(going, find_casters(scene, film, request));
         }
@@ -91,9 +95,23 @@ class EmbreeTracer final : public Tracer {
     }
 
   private:
+    // Guided paths have kernels of their own, which are made when the first map is.
+    Result<void> choose_kernels(const GpuScene& scene, const Guiding* guiding) {
+        running_ = &kernels_;
+        if (!guiding || !guiding->address()) return {};
+        if (!guided_kernels_) {
+            TracerContext context = c_;
+            context.stand_ins = false;
+            guided_kernels_ = std::make_unique<WaveKernels>(context);
+            RESTAGE_CHECK(guided_kernels_->select(scene, true));
+        }
+        running_ = guided_kernels_.get();
+        return {};
+    }
+
     Result<void> finish(const GpuScene& scene, Clock::time_point start) {
         stats_.seconds += seconds_since(start);
-        stats_.shader_bytes = kernels_.shader_bytes();
+        stats_.shader_bytes = running_->shader_bytes();
         auto counts = counters_.span<std::uint32_t>();
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.types().size(), COUNTER_MAX_TYPES); ++i)
             if (counts[i]) stats_.not_finite[scene.types()[i].type] += std::exchange(counts[i], 0);
@@ -110,6 +128,7 @@ class EmbreeTracer final : public Tracer {
         f.seed = request.seed;
         f.film = film.pixels();
         f.film_guides = film.guides();
+        if (request.guiding) f.guiding = request.guiding->address();
         return f;
     }
 
@@ -120,8 +139,12 @@ class EmbreeTracer final : public Tracer {
         while (plan.next()) {
             if (request.keep_going && !request.keep_going()) return false;
             shared::FrameData f = frame_of(film, request);
-            RESTAGE_TRY(const bool done, wave(scene, f, plan, request.keep_going));
-            if (!done) return false;
+            learning_ = request.guiding && request.guiding->learns();
+            const auto done = wave(scene, f, plan, request.keep_going);
+            if (done && *done && learning_)
+                request.guiding->add(records_, plan.picks(), paths_.span<shared::PathState>());
+            learning_ = false;
+            if (!done || !*done) return done;
         }
         return true;
     }
@@ -163,12 +186,12 @@ class EmbreeTracer final : public Tracer {
             RESTAGE_TRY(const bool going, shoot(scene, film, request, 0));
             if (!going) return false;
         }
-        RESTAGE_TRY(const bool ready, kernels_.need_photons(request.keep_going));
+        RESTAGE_TRY(const bool ready, running_->need_photons(request.keep_going));
         if (!ready || (request.keep_going && !request.keep_going())) return false;
         RESTAGE_CHECK(caustics_.begin(map, request.seed));
         shared::FrameData f = frame_of(film, request);
         RESTAGE_CHECK(begin_wave(scene, f));
-        RESTAGE_TRY(const bool done, bounces(scene, kernels_.photons(), CausticPhotons::paths_per_map,
+        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), CausticPhotons::paths_per_map,
                                              request.keep_going, [&] { caustics_.collect(active_); }));
         if (!done) return false;
         RESTAGE_CHECK(caustics_.finish());
@@ -193,7 +216,7 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_CHECK(begin_wave(scene, f));
         casters_.assign(scene.instances().size(), 0);
         const TraceStats before = stats_; // these are no samples
-        auto done = bounces(scene, kernels_.generate(), std::uint32_t(plan.picks().size()), request.keep_going, [] {});
+        auto done = bounces(scene, running_->generate(), std::uint32_t(plan.picks().size()), request.keep_going, [] {});
         std::vector<char> found = std::exchange(casters_, {});
         stats_.rays = before.rays, stats_.shadow_rays = before.shadow_rays;
         if (!done || !*done) {
@@ -224,9 +247,9 @@ class EmbreeTracer final : public Tracer {
         f.run_count = run_count;
         RESTAGE_CHECK(begin_wave(scene, f));
         stats_.paths += count;
-        RESTAGE_TRY(const bool done, bounces(scene, kernels_.generate(), count, keep_going, [] {}));
+        RESTAGE_TRY(const bool done, bounces(scene, running_->generate(), count, keep_going, [] {}));
         if (!done) return false;
-        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, kernels_.accumulate(), 0, run_count); }));
+        RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, running_->accumulate(), 0, run_count); }));
         return true;
     }
 
@@ -274,6 +297,7 @@ class EmbreeTracer final : public Tracer {
                          const std::function<bool()>& keep_going, AfterBounce&& after_bounce) {
         const std::uint32_t max_depth = scene.data().max_depth;
         RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, start, 0, count); }));
+        if (learning_) records_.begin(count);
         active_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i)
             active_[i] = i;
@@ -283,18 +307,20 @@ class EmbreeTracer final : public Tracer {
                 RESTAGE_TRY(const bool decided, decide(scene, bounce >= max_depth, keep_going));
                 if (!decided) return false;
             }
+            if (learning_)
+                records_.note(active_, paths_.span<shared::PathState>(), rays_.span<shared::RayHit>(), c_.jobs);
             queue_hits(scene);
             if (queued_ == 0) return true;
-            RESTAGE_TRY(const bool ready, kernels_.need(std::span(type_count_).first(type_none), keep_going));
+            RESTAGE_TRY(const bool ready, running_->need(std::span(type_count_).first(type_none), keep_going));
             if (!ready) return false;
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
                 if (type_count_[type_emit]) {
-                    dispatch(list, kernels_.shade(type_emit), type_first_[type_emit], type_count_[type_emit]);
+                    dispatch(list, running_->shade(type_emit), type_first_[type_emit], type_count_[type_emit]);
                     list.barrier(); // shading adds to the same radiance
                 }
                 for (std::size_t t = 0; t < type_none; ++t)
                     if (type_count_[t] && t != type_emit)
-                        dispatch(list, kernels_.shade(t), type_first_[t], type_count_[t]);
+                        dispatch(list, running_->shade(t), type_first_[t], type_count_[t]);
             }));
             after_bounce();
         }
@@ -471,7 +497,7 @@ class EmbreeTracer final : public Tracer {
             for (const auto& hit : u.hits)
                 asked.push_back({hit.instance, hit.prim, hit.bary});
         if (asked.empty()) return true;
-        RESTAGE_TRY(const bool ready, kernels_.need_decide(keep_going));
+        RESTAGE_TRY(const bool ready, running_->need_decide(keep_going));
         if (!ready) return false;
         if (!asked_) {
             RESTAGE_TRY(asked_, c_.device.create_buffer(most_asked * sizeof(shared::HitAsked),
@@ -485,7 +511,7 @@ class EmbreeTracer final : public Tracer {
             std::copy_n(asked.data() + first, n, asked_.span<shared::HitAsked>().data());
             const shared::DecidePush push{scene.address(), asked_.address(), decided_.address(), std::uint32_t(n), 0};
             RESTAGE_CHECK(submit([&](gpu::CommandList& list) {
-                list.dispatch(kernels_.decide(), gpu::push_bytes(push),
+                list.dispatch(running_->decide(), gpu::push_bytes(push),
                               (std::uint32_t(n) + group_size - 1) / group_size);
             }));
             std::copy_n(decided_.span<shared::HitDecided>().data(), n, decided.data() + first);
@@ -624,6 +650,10 @@ class EmbreeTracer final : public Tracer {
     WaveKernels kernels_;
     CausticPhotons caustics_;
     std::vector<char> casters_; // while they are looked for: by instance
+    std::unique_ptr<WaveKernels> guided_kernels_; // where paths are guided
+    WaveKernels* running_ = &kernels_;
+    PathRecords records_; // of this wave, if
+    bool learning_ = false;
     std::vector<Undecided> undecided_; // by chunk of active_
     gpu::Buffer asked_, decided_;
     gpu::CommandList list_;

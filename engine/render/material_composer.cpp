@@ -200,7 +200,8 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {16, f.lights},
             {17, f.light_roots},
             {18, f.curves || (type && type->curves)},
-            {19, f.caustics}};
+            {19, f.caustics},
+            {20, f.guiding}};
 }
 
 } // namespace restage::render

@@ -27,6 +27,7 @@ struct SceneFeatures {
     bool spectral = false;    // requested, and some colour is not grey
     bool curves = false;      // of it: some light or medium has a measured spectrum
     bool caustics = false;    // requested, and some light may meet something specular
+    bool guiding = false;     // the tracer's: paths are guided
     std::uint32_t camera = 0; // CAMERA_*
     std::uint32_t lights = 0; // LIGHTS_*
     std::uint32_t light_roots = 0;

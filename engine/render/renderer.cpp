@@ -3,6 +3,7 @@
 
 #include "base/file.hpp"
 #include "render/clay.hpp"
+#include "render/guiding.hpp"
 #include "render/tracers.hpp"
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
@@ -14,7 +15,11 @@
 namespace restage::render {
 
 Renderer::Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log)
-    : options_(options), lookup_(std::move(lookup)), log_(&log), jobs_(options.threads) {}
+    : options_(options),
+      lookup_(std::move(lookup)),
+      log_(&log),
+      jobs_(options.threads),
+      guiding_(std::make_unique<Guiding>()) {}
 
 Renderer::~Renderer() = default;
 
@@ -150,6 +155,8 @@ Result<void> Renderer::sync(const scene::Scene& scene) {
         }
     }
     adaptive_ = scene.settings.value.adaptive;
+    guiding_technique_ = scene.settings.value.guiding;
+    scene_samples_ = scene.settings.value.samples;
     if (changes.image) reset();
     return {};
 }
@@ -165,6 +172,7 @@ TraceRequest Renderer::request() const {
 
 // Whether it was not stopped.
 Result<bool> Renderer::trace(TraceRequest request, const std::function<bool()>& keep_going) {
+    if (guiding_->learns() || guiding_->address()) request.guiding = guiding_.get();
     bool stopped = false;
     request.keep_going = [&] {
         stopped = stopped || !keep_going();
@@ -199,16 +207,30 @@ Result<bool> Renderer::trace_adaptive(std::uint32_t samples, const std::function
     return whole;
 }
 
-Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
-    if (tracer_->adopt()) reset();
-    if (!keep_going) keep_going = [] { return true; };
+Result<bool> Renderer::trace_some(std::uint32_t samples, const std::function<bool()>& keep_going) {
     const std::uint32_t uniform =
         adaptive_ ? std::min(samples, adaptive_pilot - std::min(samples_, adaptive_pilot)) : samples;
     bool going = true;
     if (uniform > 0) {
         RESTAGE_TRY(going, trace_uniform(uniform, keep_going));
     }
-    if (going && uniform < samples) RESTAGE_CHECK(trace_adaptive(samples - uniform, keep_going));
+    return going && uniform < samples ? trace_adaptive(samples - uniform, keep_going) : Result<bool>(going);
+}
+
+Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_going) {
+    if (tracer_->adopt()) reset();
+    if (!keep_going) keep_going = [] { return true; };
+    if (samples_ == 0) {
+        // Nobody waits for guides while a scene is edited, nor does the other tracer have them.
+        const bool usable = tracer_->embree() && !(options_.stand_ins && guiding_technique_ != scene::Technique::on);
+        guiding_->begin(usable ? guiding_technique_ : scene::Technique::off, planned_ ? planned_ : scene_samples_,
+                        std::size_t(film_->width()) * film_->rows());
+    }
+    bool going = true;
+    for (const std::uint32_t goal = samples_ + samples; going && samples_ < goal;) {
+        RESTAGE_CHECK(guiding_->advance(samples_, *device_, jobs_));
+        RESTAGE_TRY(going, trace_some(std::min(goal - samples_, guiding_->until_change(samples_)), keep_going));
+    }
     if (samples_ > 0) revived_ = false;
     return {};
 }

@@ -14,6 +14,8 @@
 
 namespace restage::render {
 
+class Guiding;
+
 class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options, MaterialLookup lookup, Log& log);
@@ -22,6 +24,9 @@ class Renderer {
 
     // Updates to the scene. If a visible change occurred, the film restarts.
     Result<void> sync(const scene::Scene& scene);
+    // How many samples per pixel the picture will have, for techniques that pay in long renderings only; 0: those of
+    // its Settings. Of pictures that begin after the call.
+    void plan(std::uint32_t samples) { planned_ = samples; }
     // Adds `samples` to every pixel, or with Settings::adaptive to their mean; first restarts the film if newly
     // compiled shaders changed the picture. `keep_going` is called between batches of work (a wave of 65536 paths, a
     // rectangle of the film) and while shaders compile; false stops early and is not an error.
@@ -78,7 +83,8 @@ class Renderer {
   private:
     Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log);
     Result<void> open();
-    // These return false if keep_going stopped them; the first two add to the mean of the pixels' samples.
+    // These return false if keep_going stopped them; the first three add to the mean of the pixels' samples.
+    Result<bool> trace_some(std::uint32_t samples, const std::function<bool()>& keep_going);
     Result<bool> trace_uniform(std::uint32_t samples, const std::function<bool()>& keep_going);
     Result<bool> trace_adaptive(std::uint32_t samples, const std::function<bool()>& keep_going);
     Result<bool> trace(TraceRequest request, const std::function<bool()>& keep_going);
@@ -98,6 +104,9 @@ class Renderer {
     std::uint32_t samples_ = 0, first_sample_ = 0;
     bool adaptive_ = false;
     AdaptivePlan adaptive_plan_; // made after the pilot
+    scene::Technique guiding_technique_ = scene::Technique::off;
+    std::uint32_t planned_ = 0, scene_samples_ = 0; // see plan()
+    std::unique_ptr<Guiding> guiding_;
     bool revived_ = false; // and has delivered no sample since
 };
 

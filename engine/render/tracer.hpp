@@ -18,6 +18,7 @@
 namespace restage::render {
 
 class EmbreeScene;
+class Guiding;
 
 struct TracerContext {
     gpu::Device& device;
@@ -38,6 +39,7 @@ struct TraceRequest {
     std::span<const PixelSamples> pixels; // instead, if not empty: of each pixel of the film and its twins
     std::uint32_t seed = 0;
     std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
+    Guiding* guiding = nullptr; // if paths are to be guided, or learned from
     // Called between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
     std::function<bool()> keep_going;
 };

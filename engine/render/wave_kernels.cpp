@@ -8,9 +8,10 @@
 
 namespace restage::render {
 
-Result<void> WaveKernels::select(const GpuScene& scene) {
+Result<void> WaveKernels::select(const GpuScene& scene, bool guiding) {
     const bool other_colors = features_.spectral != scene.features().spectral; // and other words of values
     features_ = scene.features();
+    features_.guiding = guiding;
     auto before = std::exchange(types_, scene.types());
     texture_types_ = scene.texture_types();
     stand_in_type_ = scene.materials()[0].type;

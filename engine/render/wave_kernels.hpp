@@ -18,8 +18,8 @@ class WaveKernels {
 
     explicit WaveKernels(const TracerContext& c) : c_(c), store_(c) {}
 
-    // Switches to the types and features of `scene`. Starts building what every wave needs.
-    Result<void> select(const GpuScene& scene);
+    // Switches to the types and features of `scene`. Starts building what every wave needs. guiding: paths are guided.
+    Result<void> select(const GpuScene& scene, bool guiding = false);
     // Waits for what every wave needs. False: keep_going requested a stop.
     Result<bool> begin(const std::function<bool()>& keep_going);
     // Makes kernels ready for hits of these types (index: type; value: hits). False: keep_going requested a stop.

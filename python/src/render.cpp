@@ -80,6 +80,7 @@ Result<void> run(Workspace& w, const scene::Scene& scene, const Request& request
     RendererUse use(w);
     const std::shared_lock plugins(w.host().in_use());
     RESTAGE_TRY(render::Renderer * renderer, use.get(request.key));
+    renderer->plan(request.target.samples ? request.target.samples : 1u << 24);
     renderer->restart(request.seed, request.first_sample);
     renderer->reset_stats();
     bool revived = false; // a stopped driver is restarted, once

@@ -14,7 +14,8 @@ struct Receiver {
     vec3 p;
     vec3 n; // about unit, of either side
 };
-uint receiver_bits(vec3 n) { return LIGHT_ROOTS > 1u ? packSnorm4x8(vec4(n, 0.0)) : 0u; }
+// Path guiding, too, learns from it: there it is on the side that the path came from.
+uint receiver_bits(vec3 n) { return packSnorm4x8(vec4(n, 0.0)); }
 Receiver receiver_at(vec3 p, uint bits) {
     return Receiver(p, LIGHT_ROOTS > 1u ? unpackSnorm4x8(bits).xyz : vec3(0));
 }

@@ -48,7 +48,7 @@ const uint PAIR_LENS = 1u;                                    // a point of the 
 const uint PAIR_WAVELENGTHS = 0xffffffffu;                    // x: the hero wavelength; behind those of all vertices
 uint pair_light_pick(uint depth) { return 2u + 4u * depth; }  // x: which emitter, y: Russian roulette
 uint pair_light(uint depth) { return 3u + 4u * depth; }       // a point on it
-uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction
+uint pair_bsdf(uint depth) { return 4u + 4u * depth; }        // direction; x first: whether a guide chooses it
 uint pair_lobe(uint depth) { return 5u + 4u * depth; }        // x: which lobe; y: not used
 
 #endif

@@ -14,6 +14,7 @@
 #include "path/emission.glsl"
 #include "path/film.glsl"
 #include "path/photons.glsl"
+#include "path/guided.glsl"
 #ifdef MATERIAL_SITE
 #include "lib/site.glsl"
 #endif
@@ -91,7 +92,11 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
     float u_lobe = to_unit(sample_bits(path.seed, path.sample_index, pair_lobe(depth)).x);
     bool ok = true;
-    uint receiver = receiver_bits(s.ns);
+    uint receiver = receiver_bits(wo.z < 0.0 ? -s.ns : s.ns);
+
+    Guide directions;
+    if (HAS_GUIDING) directions = guide_at(GuidingRef(scene.guiding).guiding, s, m, wo);
+    if (HAS_GUIDING && photon) directions.share = 0.0;
 
     // Next-event estimation
     if (LIGHT_ROOTS > 0u) {
@@ -103,7 +108,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
             Spectrum f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : Spectrum(0);
             ok = finite(f);
             if (max_component(f) > 0.0) {
-                float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, material_pdf(m, wo, wi, rng));
+                float pdf = light.delta || STRATEGY == 2 ? 0.0 : material_pdf(m, wo, wi, rng);
+                if (HAS_GUIDING && !light.delta) pdf = guided_pdf(directions, light.wi, pdf);
+                float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, pdf);
                 if (HAS_LIGHT_ALPHA) w = mix(w, 1.0, light.unseen);
                 Spectrum c = path.throughput * f * light.radiance * (w / light.pdf);
                 uint medium = path.medium;
@@ -130,7 +137,14 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     // BSDF sampling
     vec2 u = sample_pair(path.seed, path.sample_index, pair_bsdf(depth));
+    bool guided = HAS_GUIDING && u.x < directions.share;
+    if (HAS_GUIDING) u.x = guided ? u.x / directions.share : (u.x - directions.share) / (1.0 - directions.share);
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
+    if (HAS_GUIDING) {
+        float roulette;
+        b = guided_sample(directions, m, s, wo, u, guided, b, rng, roulette);
+        path.eta_scale *= roulette;
+    }
     if (HAS_CAUSTICS && (photon ? depth > 0u : !last && photon_map.count > 0u) && scatters(m, wo, b, rng)) {
         if (photon) photon_stop(s, wo_world, path.radiance * path.throughput);
         else path.radiance += clamp_contribution(scene, path.throughput * gather_photons(m, s, wo_world, rng), depth + 1u);

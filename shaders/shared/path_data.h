@@ -62,8 +62,9 @@ struct PathState {
     RESTAGE_CARRIED throughput;
     float pdf; // of the last BSDF sample, solid angle
     RESTAGE_CARRIED radiance;
-    uint flags; // depth | PATH_*
-    float eta_scale; // product of eta^2 on transmissions; Russian roulette factors it out
+    uint flags;       // depth | PATH_*
+    float
+        eta_scale; // of throughput in Russian roulette: product of eta^2 on transmissions, and what path guiding takes
     uint medium;
     uint seed; // of the pixel's random numbers
     uint sample_index;
@@ -124,6 +125,7 @@ struct FrameData { // behind the push constant
     address photons; // PhotonMap, where HAS_CAUSTICS
     address picks; // SamplePick[], of each path; 0: the ray-tracing pipeline takes a rectangle
     address runs; // SampleRun[run_count], in a wave
+    address guiding; // GuidingData, where paths are guided (HAS_GUIDING)
     uint run_count;
     uint samples, first_sample; // of each pixel of a rectangle; samples: or the number of picks of the pipeline
     uint pad1;

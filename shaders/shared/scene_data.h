@@ -196,6 +196,7 @@ struct SceneData {
     address spectral_coefficients; // uvec2[3][SPECTRAL_CELLS]^3: packed, of the RGB cube
     address spectral_curves; // vec2[][SPECTRAL_CURVE]: measured spectra
     address spectral_film; // vec4[SPECTRAL_BINS]: RGB of light at the wavelengths of a bin
+    address guiding; // GuidingData; the tracer's (FrameData), 0 in the stored scene
     uint max_depth;
     uint russian_roulette;
     uint camera_medium;

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/guiding_map.hpp"
+
+#include "shared/octahedral.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace restage::render {
+namespace {
+
+constexpr int side = GUIDING_SIDE, cells = side * side;
+constexpr std::size_t records_per_leaf = 512; // up to twice as many
+constexpr float alike = 0.8f; // of normals, on each axis
+constexpr std::size_t fewest = 64; // records that normals separate
+constexpr std::uint32_t deepest = 24;
+constexpr double uniform = 0.02; // part of each histogram that is spread evenly: of directions nothing is known of
+
+struct Bounds {
+    glm::vec3 lower{1e30f}, upper{-1e30f};
+    void add(const glm::vec3& p) {
+        lower = glm::min(lower, p);
+        upper = glm::max(upper, p);
+    }
+    std::uint32_t widest() const {
+        const glm::vec3 size = upper - lower;
+        return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    }
+};
+
+float coordinate(const GuidingRecord& r, std::uint32_t axis) {
+    return axis < 3 ? r.position[int(axis)] : r.normal[int(axis - 3)];
+}
+
+// First by normals, until those of a leaf are alike, then into halves of as many records. Returns the number of records
+// below the split; 0: they stay together.
+std::size_t split(std::span<GuidingRecord> records, shared::GuidingNode& node) {
+    Bounds places, normals;
+    for (const GuidingRecord& r : records) {
+        places.add(r.position);
+        normals.add(r.normal);
+    }
+    const std::uint32_t n = normals.widest(), p = places.widest();
+    const float lower = normals.lower[int(n)], upper = normals.upper[int(n)];
+    if (upper - lower > alike && records.size() > fewest) {
+        node.axis = 3 + n;
+        node.split = 0.5f * (lower + upper);
+        const auto above = std::stable_partition(records.begin(), records.end(), [&](const GuidingRecord& r) {
+            return coordinate(r, node.axis) < node.split;
+        });
+        return std::size_t(above - records.begin());
+    }
+    if (records.size() < 2 * records_per_leaf || !(places.upper[int(p)] > places.lower[int(p)])) return 0;
+    node.axis = p;
+    const auto middle = records.begin() + std::ptrdiff_t(records.size() / 2);
+    std::ranges::nth_element(records, middle, {},
+                             [&](const GuidingRecord& r) { return std::pair(coordinate(r, p), r.order); });
+    node.split = coordinate(*middle, p);
+    return records.size() / 2;
+}
+
+// Of what a diffuse surface scatters. Each record is a square of one cell's size around its direction, so that few make
+// a smooth histogram.
+std::array<double, cells> second_moments(std::span<const GuidingRecord> records) {
+    std::array<double, cells> out{};
+    for (const GuidingRecord& r : records) {
+        const double light = double(r.radiance) * std::abs(glm::dot(r.normal, r.direction));
+        const double value = light * light / r.pdf;
+        const glm::dvec2 p = shared::direction_to_octahedral(glm::dvec3(r.direction)) * double(side) - 0.5;
+        const glm::dvec2 first = glm::floor(p), w = p - first;
+        for (int k = 0; k < 4; ++k) {
+            const glm::dvec2 corner(k & 1, k >> 1);
+            const glm::dvec2 at = shared::octahedral_wrap((first + corner + 0.5) / double(side)) * double(side);
+            const int x = std::clamp(int(at.x), 0, side - 1), y = std::clamp(int(at.y), 0, side - 1);
+            out[std::size_t(y * side + x)] += value * (k & 1 ? w.x : 1 - w.x) * (k >> 1 ? w.y : 1 - w.y);
+        }
+    }
+    return out;
+}
+
+shared::GuidingLeaf leaf(std::span<const GuidingRecord> records, float share) {
+    std::array<double, cells> h = second_moments(records);
+    double sum = 0;
+    for (double& v : h)
+        sum += v = std::sqrt(v);
+    for (double& v : h)
+        v = sum > 0 ? v / sum * (1 - uniform) + uniform / cells : 1.0 / cells;
+    shared::GuidingLeaf out{};
+    out.share = sum > 0 ? share : 0;
+    double rows = 0;
+    for (int y = 0; y < side; ++y) {
+        const double row = std::accumulate(h.begin() + y * side, h.begin() + (y + 1) * side, 0.0);
+        rows += row;
+        out.rows[y] = y + 1 < side ? float(rows) : 1.f;
+        double columns = 0;
+        for (int x = 0; x < side; ++x) {
+            columns += h[std::size_t(y * side + x)] / row;
+            out.columns[y * side + x] = x + 1 < side ? float(columns) : 1.f;
+        }
+    }
+    // Of the sums as they were rounded.
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const float* columns = out.columns + y * side;
+            const double row = double(out.rows[y]) - (y ? double(out.rows[y - 1]) : 0.0);
+            const double cell = double(columns[x]) - (x ? double(columns[x - 1]) : 0.0);
+            out.density[y * side + x] = float(row * cell * cells / (4 * std::numbers::pi));
+        }
+    return out;
+}
+
+} // namespace
+
+GuidingMap GuidingMap::make(std::vector<GuidingRecord>& records, float share, Jobs& jobs) {
+    GuidingMap map;
+    std::ranges::sort(records, {}, &GuidingRecord::order);
+    std::vector<std::span<GuidingRecord>> parts; // of the leaves
+    struct Part {
+        std::uint32_t node, depth;
+        std::span<GuidingRecord> records;
+    };
+    std::vector<Part> open{{0, 0, records}};
+    map.nodes.push_back({});
+    while (!open.empty()) {
+        const Part part = open.back();
+        open.pop_back();
+        shared::GuidingNode node{
+            .split = std::numeric_limits<float>::infinity(), .axis = 0, .next = part.node, .leaf = 0};
+        map.depth = std::max(map.depth, part.depth);
+        const std::size_t below = part.depth < deepest ? split(part.records, node) : 0;
+        if (below > 0) {
+            node.next = std::uint32_t(map.nodes.size());
+            map.nodes.resize(map.nodes.size() + 2);
+            open.push_back({node.next + 1, part.depth + 1, part.records.subspan(below)});
+            open.push_back({node.next, part.depth + 1, part.records.first(below)});
+        } else {
+            node.leaf = std::uint32_t(parts.size());
+            parts.push_back(part.records);
+        }
+        map.nodes[part.node] = node;
+    }
+    map.leaves.resize(parts.size());
+    jobs.parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t k = begin; k < end; ++k)
+            map.leaves[k] = leaf(parts[k], share);
+    });
+    return map;
+}
+
+std::uint32_t GuidingMap::leaf_of(const glm::vec3& p, const glm::vec3& normal) const {
+    std::uint32_t at = 0;
+    for (std::uint32_t k = 0; k < depth; ++k) {
+        const shared::GuidingNode& node = nodes[at];
+        const float x = node.axis < 3 ? p[int(node.axis)] : normal[int(node.axis - 3)];
+        at = node.next + (x >= node.split ? 1 : 0);
+    }
+    return nodes[at].leaf;
+}
+
+float GuidingMap::density(std::uint32_t leaf, const glm::vec3& w) const {
+    const glm::dvec2 p = shared::direction_to_octahedral(glm::dvec3(w)) * double(side);
+    const int x = std::clamp(int(p.x), 0, side - 1), y = std::clamp(int(p.y), 0, side - 1);
+    return leaves[leaf].density[y * side + x];
+}
+
+double GuidingMap::relative_moment(std::span<const GuidingRecord> records, float share) const {
+    if (records.empty()) return 1;
+    std::vector<float> contributions;
+    for (const GuidingRecord& r : records)
+        contributions.push_back(r.contribution);
+    // The very largest say more about chance than about the scene.
+    const auto high = contributions.begin() + std::ptrdiff_t(double(contributions.size() - 1) * 0.999);
+    std::ranges::nth_element(contributions, high);
+    double guided = 0, all = 0;
+    for (const GuidingRecord& r : records) {
+        const double square = std::pow(std::min(r.contribution, *high), 2);
+        const double guide = density(leaf_of(r.position, r.normal), r.direction);
+        guided += square * r.pdf / (share * guide + (1 - share) * r.pdf);
+        all += square;
+    }
+    return guided / all;
+}
+
+} // namespace restage::render
