@@ -62,7 +62,7 @@ struct PathState {
     RESTAGE_CARRIED throughput;
     float pdf; // of the last BSDF sample, solid angle
     RESTAGE_CARRIED radiance;
-    uint flags;       // depth | PATH_*
+    uint flags; // depth | PATH_*
     float
         eta_scale; // of throughput in Russian roulette: product of eta^2 on transmissions, and what path guiding takes
     uint medium;

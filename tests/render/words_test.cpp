@@ -3,8 +3,8 @@
 #include "kernel_lab.hpp"
 #include "shared/scene_data.h"
 
-#include <glm/glm.hpp>
 #include <cstring>
+#include <glm/glm.hpp>
 #include <numeric>
 
 using namespace restage;
