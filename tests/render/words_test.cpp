@@ -3,9 +3,10 @@
 #include "kernel_lab.hpp"
 #include "shared/scene_data.h"
 
-#include <cstring>
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <numeric>
+#include <span>
 
 using namespace restage;
 using namespace restage::tests;
@@ -22,7 +23,7 @@ std::vector<std::uint32_t> numbers(std::size_t count, std::uint32_t first = 0) {
 
 std::vector<std::uint32_t> words_of(const shared::LightData& light) {
     std::vector<std::uint32_t> list(sizeof(light) / 4);
-    std::memcpy(list.data(), &light, sizeof(light));
+    std::ranges::copy(std::as_bytes(std::span(&light, 1)), std::as_writable_bytes(std::span(list)).begin());
     return list;
 }
 
