@@ -15,7 +15,8 @@
 
 namespace restage::render {
 
-inline constexpr std::uint32_t guiding_least = 32; // planned samples per pixel from which on guiding can pay
+// Planned samples per pixel from which on `automatic` tries whether guiding pays. The trial costs as much as 6 samples.
+inline constexpr std::uint32_t guiding_least = 1024;
 
 class Guiding {
   public:
