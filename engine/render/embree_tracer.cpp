@@ -188,10 +188,11 @@ class EmbreeTracer final : public Tracer {
         }
         RESTAGE_TRY(const bool ready, running_->need_photons(request.keep_going));
         if (!ready || (request.keep_going && !request.keep_going())) return false;
-        RESTAGE_CHECK(caustics_.begin(map, request.seed));
+        const std::uint32_t paths = CausticPhotons::paths_per_map(film.width() * film.rows());
+        RESTAGE_CHECK(caustics_.begin(map, request.seed, paths));
         shared::FrameData f = frame_of(film, request);
         RESTAGE_CHECK(begin_wave(scene, f));
-        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), CausticPhotons::paths_per_map,
+        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), paths,
                                              request.keep_going, [&] { caustics_.collect(active_); }));
         if (!done) return false;
         RESTAGE_CHECK(caustics_.finish());
@@ -202,7 +203,7 @@ class EmbreeTracer final : public Tracer {
     Result<bool> find_casters(const GpuScene& scene, const Film& film, const TraceRequest& request) {
         const bool all = scene.all_caustics();
         RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
-        const std::uint32_t pixels = film.width() * film.height(), most = std::min(pixels, wave_paths / 4);
+        const std::uint32_t pixels = film.width() * film.height(), most = std::min(pixels, wave_paths / 16);
         std::vector<PixelSamples> some(std::size_t(film.width()) * film.rows());
         for (std::uint32_t k = 0; k < most; ++k)
             some[std::size_t(std::uint64_t(k) * pixels / most)] = {0, 1};

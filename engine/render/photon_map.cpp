@@ -81,7 +81,11 @@ Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, std::span<const T> v
 } // namespace
 
 std::uint32_t CausticPhotons::samples_per_map(std::uint32_t pixels) {
-    return std::clamp(4 * paths_per_map / std::max(pixels, 1u), 1u, 16u);
+    return std::clamp(4 * paths_per_map(pixels) / std::max(pixels, 1u), 1u, 16u);
+}
+
+std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) {
+    return std::clamp(pixels / 2, 4096u, WAVE_PATHS) / 64 * 64;
 }
 
 Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> casters, bool all) {
@@ -141,14 +145,13 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
     RESTAGE_CHECK(fill<shared::CdfEntry>(device_, cdf_, cdf, "distribution of photons"));
     RESTAGE_CHECK(fill<shared::CasterSphere>(device_, caster_buffer_, casters_, "casters of caustics"));
     if (active() && !deposits_) {
-        RESTAGE_TRY(deposits_, device_.create_buffer((paths_per_map + 65536) * sizeof(shared::Photon),
+        RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon),
                                                      gpu::BufferKind::readback, "photons of a wave"));
     }
     head_.center = glm::vec3(world.empty() ? glm::dvec3(0) : world.center());
     head_.scene_radius = world.empty() ? 1.f : float(world.radius() * 1.001);
     head_.source_count = std::uint32_t(sources_.size());
     head_.caster_count = std::uint32_t(casters_.size());
-    head_.per_photon = 1.f / paths_per_map;
     return upload(head_);
 }
 
@@ -199,11 +202,12 @@ void CausticPhotons::find_sources(const GpuScene& scene, const std::function<boo
     }
 }
 
-Result<void> CausticPhotons::begin(std::uint32_t map, std::uint32_t seed) {
+Result<void> CausticPhotons::begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths) {
     if (seed != seed_) first_radius_ = 0;
     map_ = map;
     seed_ = seed;
     photons_.clear();
+    head_.per_photon = 1.f / float(paths);
     shared::PhotonMap head = head_;
     head.seed = shared::pcg_hash(map ^ shared::pcg_hash(seed ^ 0x6c8e9cf5u));
     return upload(head);

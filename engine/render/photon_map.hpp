@@ -18,8 +18,6 @@ namespace restage::render {
 
 class CausticPhotons {
   public:
-    static constexpr std::uint32_t paths_per_map = WAVE_PATHS; // photons that are started
-
     CausticPhotons(gpu::Device& device, Jobs& jobs) : device_(device), jobs_(jobs) {}
 
     // Of a new scene: which instances pass photons on (by index; 1 = a caster). Decides which lights they start from:
@@ -30,11 +28,13 @@ class CausticPhotons {
     bool active() const { return !sources_.empty(); }
     std::uint64_t address() const { return record_.address(); } // of shared::PhotonMap, once started
 
-    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map.
+    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. So many photons are
+    // started that they cost little beside the paths, from the first sample on: pictures follow edits.
+    static std::uint32_t paths_per_map(std::uint32_t pixels);
     static std::uint32_t samples_per_map(std::uint32_t pixels);
     bool has(std::uint32_t map, std::uint32_t seed) const { return map_ == map && seed_ == seed; }
     // Empties the map; then waves of photons, collect() after each bounce, and finish().
-    Result<void> begin(std::uint32_t map, std::uint32_t seed);
+    Result<void> begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
     void collect(std::span<const std::uint32_t> paths); // that were shaded
     Result<void> finish();
     bool knows_radius(std::uint32_t seed) const { return seed_ == seed && first_radius_ > 0; } // once map 0 was made

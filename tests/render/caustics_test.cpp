@@ -52,7 +52,7 @@ TEST_CASE("caustics: the sun through two panes of glass") {
     const auto pane = cube(b);
     for (const double z : {1.0, 1.2})
         b.instance(pane, b.material("dielectric", glass),
-                   glm::translate(glm::dmat4(1), glm::dvec3(0, 0, z)) * glm::scale(glm::dmat4(1), {2, 2, 0.02}));
+                   glm::translate(glm::dmat4(1), glm::dvec3(0, 0, z)) * glm::scale(glm::dmat4(1), {0.4, 0.4, 0.02}));
     const double irradiance = 2;
     b.light(lamp(scene::LightKind::distant, glm::vec3(float(irradiance)), downwards({0, 0, 0})));
     set_caustics(b, scene::Technique::automatic, 40);
@@ -63,14 +63,15 @@ TEST_CASE("caustics: the sun through two panes of glass") {
     INFO("relative error " << mean / expected - 1);
     CHECK(std::abs(mean / expected - 1) < 0.01);
     set_caustics(b, scene::Technique::off, 40);
-    CHECK(mean_of("embree", b, 16) == 0);
+    CHECK(mean_of("embree", b, 16) < 0.02 * expected); // only by way of the floor outside
 }
 
 TEST_CASE("caustics: a mirror shows a floor its lamp a second time") {
     SceneBuilder b;
     watch_floor(b);
     const double height = 2, distance = 1.5; // of the lamp; of the mirror, at x = -distance
-    b.instance(b.quad({-1.5f, -4, -1}, {-1.5f, 4, -1}, {-1.5f, 4, 6}, {-1.5f, -4, 6}), b.material("mirror"));
+    b.instance(b.quad({-1.5f, -0.5f, 0.6f}, {-1.5f, 0.5f, 0.6f}, {-1.5f, 0.5f, 1.4f}, {-1.5f, -0.5f, 1.4f}),
+               b.material("mirror"));
     const scene::LightKind kind = GENERATE(scene::LightKind::point, scene::LightKind::spot);
     scene::Light light = lamp(kind, glm::vec3(3), downwards({0, 0, height}));
     light.cone_angle = 89;
@@ -78,7 +79,7 @@ TEST_CASE("caustics: a mirror shows a floor its lamp a second time") {
     b.light(light);
     const auto lit = [&](scene::Technique technique) {
         set_caustics(b, technique);
-        return mean_of("embree", b, 128);
+        return mean_of("embree", b, 512);
     };
     const double with = lit(scene::Technique::automatic), without = lit(scene::Technique::off);
     // An image of the lamp stands behind the mirror.
