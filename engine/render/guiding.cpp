@@ -18,18 +18,14 @@ constexpr std::uint32_t last_map = 32;
 constexpr double most_records = 1 << 20; // about
 constexpr double records_per_path = 3;
 constexpr std::array shares = {0.25f, 0.5f, 0.75f}; // of directions that the guide chooses
-// Relative second moment up to which guiding pays by itself. Guided directions lose much of the sampler's
-// stratification, and more than 0.9 of the Cornell box was twice the variance.
-constexpr double pays = 0.7;
 
 } // namespace
 
 void Guiding::begin(scene::Technique technique, std::uint32_t planned, std::size_t pixels) {
-    automatic_ = technique == scene::Technique::automatic;
-    learns_ = technique == scene::Technique::on || (automatic_ && planned >= guiding_least);
-    // What is not sure to pay waits for more records.
-    first_ = next_ =
-        automatic_ ? std::clamp(std::bit_floor(std::max(planned / 8, 1u)), first_map, last_map / 2) : first_map;
+    // The second moments of a trial do not tell where guiding pays: directions that it chooses lose the sampler's
+    // stratification. So it is never chosen automatically.
+    learns_ = technique == scene::Technique::on;
+    next_ = first_map;
     last_ = std::clamp(std::bit_floor(std::max(planned / 4, 1u)), first_map, last_map);
     const double expected = double(pixels) * last_ * records_per_path;
     kept_ = std::uint32_t(std::min(most_records / expected, 1.0) * 4294967295.0);
@@ -67,13 +63,13 @@ std::uint32_t Guiding::until_change(std::uint32_t samples) const {
 }
 
 // By the first records, which the BSDF alone has sent: a map of one half of them is tried on the other.
-bool Guiding::choose_share(Jobs& jobs) {
+void Guiding::choose_share(Jobs& jobs) {
     std::vector<GuidingRecord> half, other;
     for (const GuidingRecord& r : records_)
         (shared::pcg_hash(std::uint32_t(r.order >> 4) ^ shared::pcg_hash(std::uint32_t(r.order >> 32))) & 1 ? half
                                                                                                             : other)
             .push_back(r);
-    if (half.empty() || other.empty()) return false;
+    if (half.empty() || other.empty()) return;
     const GuidingMap map = GuidingMap::make(half, 0, jobs);
     std::ranges::sort(other, {}, &GuidingRecord::order);
     double least = std::numeric_limits<double>::infinity();
@@ -81,16 +77,11 @@ bool Guiding::choose_share(Jobs& jobs) {
         const double moment = map.relative_moment(other, share);
         if (moment < least) least = moment, share_ = share;
     }
-    return least < pays;
 }
 
 Result<void> Guiding::advance(std::uint32_t samples, gpu::Device& device, Jobs& jobs) {
     if (!learns_ || samples < next_) return {};
-    if (next_ == first_ && !choose_share(jobs) && automatic_) {
-        learns_ = false;
-        records_ = {};
-        return {};
-    }
+    if (next_ == first_map) choose_share(jobs);
     next_ *= 2;
     if (next_ > last_) learns_ = false;
     if (records_.empty()) return {};

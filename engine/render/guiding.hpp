@@ -15,9 +15,6 @@
 
 namespace restage::render {
 
-// Planned samples per pixel from which on `automatic` tries whether guiding pays. The trial costs as much as 6 samples.
-inline constexpr std::uint32_t guiding_least = 1024;
-
 class Guiding {
   public:
     // For a new picture. planned: its samples per pixel. pixels: of the film and its twins.
@@ -35,10 +32,10 @@ class Guiding {
     std::uint64_t address() const { return address_; } // of GuidingData; 0: paths are not guided
 
   private:
-    bool choose_share(Jobs& jobs); // false: guiding does not pay
+    void choose_share(Jobs& jobs);
     float share_ = 0.5f;
-    bool automatic_ = false, learns_ = false;
-    std::uint32_t first_ = 0, next_ = 0, last_ = 0; // numbers of samples where a map is due
+    bool learns_ = false;
+    std::uint32_t next_ = 0, last_ = 0; // numbers of samples where a map is due
     std::uint32_t kept_ = 0; // paths of 2^32 that are recorded
     std::vector<GuidingRecord> records_;
     gpu::Buffer nodes_, leaves_, data_;

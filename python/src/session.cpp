@@ -259,7 +259,7 @@ void bind_film(nb::class_<Workspace>& c) {
             [settings](Workspace& w, const std::string& name) {
                 settings(w, [&](Settings& s) { s.guiding = technique("guiding", name); });
             },
-            "Whether paths are sent where earlier samples found light: 'auto' (where it pays), 'on' or 'off'.")
+            "Whether paths are sent where earlier samples found light: 'on', 'off', or 'auto', which is off as yet.")
         .def_prop_rw(
             "caustics", [](Workspace& w) { return scene::technique_name(w.scene().settings.value.caustics); },
             [settings](Workspace& w, const std::string& name) {

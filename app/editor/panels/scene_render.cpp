@@ -72,7 +72,7 @@ void scene_rows(EditContext& e) {
     };
     technique_row("Guiding",
                   "Learns where light comes from and sends paths there: less noise behind half-open doors and in the "
-                  "light of windows. Automatic: where it pays",
+                  "light of windows, but more elsewhere. Automatic: off, as yet",
                   settings.guiding, "##render.guiding");
     technique_row("Caustics",
                   "Light that lamps and the sun send through glass or off mirrors, by photon maps: slightly blurred, "
