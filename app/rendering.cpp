@@ -78,9 +78,10 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                      "Give noisy parts of the picture more samples than others, without bias: --spp is their mean. Not "
                      "with --first-sample and --resume, whose samples are the same for all pixels");
     command
-        .add_option("--guiding", o.guiding,
-                    "Learn where light comes from and send paths there: on, off, or auto, which is off until a rule says "
-                    "where it pays (default: the scene's, or auto)")
+        .add_option(
+            "--guiding", o.guiding,
+            "Learn where light comes from and send paths there: on, off, or auto, which is off until a rule says "
+            "where it pays (default: the scene's, or auto)")
         ->check(CLI::IsMember(scene::technique_names));
     auto* caustics =
         command

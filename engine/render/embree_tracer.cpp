@@ -192,8 +192,8 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_CHECK(caustics_.begin(map, request.seed, paths));
         shared::FrameData f = frame_of(film, request);
         RESTAGE_CHECK(begin_wave(scene, f));
-        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), paths,
-                                             request.keep_going, [&] { caustics_.collect(active_); }));
+        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), paths, request.keep_going,
+                                             [&] { caustics_.collect(active_); }));
         if (!done) return false;
         RESTAGE_CHECK(caustics_.finish());
         return true;

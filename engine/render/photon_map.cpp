@@ -145,8 +145,8 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
     RESTAGE_CHECK(fill<shared::CdfEntry>(device_, cdf_, cdf, "distribution of photons"));
     RESTAGE_CHECK(fill<shared::CasterSphere>(device_, caster_buffer_, casters_, "casters of caustics"));
     if (active() && !deposits_) {
-        RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon),
-                                                     gpu::BufferKind::readback, "photons of a wave"));
+        RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon), gpu::BufferKind::readback,
+                                                     "photons of a wave"));
     }
     head_.center = glm::vec3(world.empty() ? glm::dvec3(0) : world.center());
     head_.scene_radius = world.empty() ? 1.f : float(world.radius() * 1.001);
