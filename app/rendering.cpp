@@ -240,6 +240,14 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     bool revived = false;
     renderer.plan(o.seconds > 0 || o.error > 0 ? 1u << 24 : o.spp);
     RESTAGE_CHECK(renderer.or_revive(renderer.sync(scene), scene, revived));
+    const auto warn_unused = [&](scene::Technique technique, const char* option, bool used, const char* where) {
+        if (technique == scene::Technique::on && !used)
+            context.log.warning(fmt::format("{} on has no effect here: it needs {}", option, where));
+    };
+    const bool embree = renderer.tracer_name() == std::string_view("embree");
+    warn_unused(scene.settings.value.guiding, "--guiding", embree, "--tracer embree");
+    warn_unused(scene.settings.value.caustics, "--caustics", embree && renderer.gpu_scene().features().caustics,
+                "--tracer embree, RGB, a light, and a material that mirrors or refracts sharply");
     const double start = now_seconds(), cpu_start = cpu_seconds();
     const std::uint32_t file_spp = scene.settings.value.samples ? scene.settings.value.samples : 64;
     const bool open_ended = o.seconds > 0 || o.error > 0;

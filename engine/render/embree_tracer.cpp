@@ -70,13 +70,15 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
-        if (changes.image) caustics_.forget();
         if (changes.shaders) guided_kernels_.reset();
         return changes.shaders ? kernels_.select(scene) : Result<void>{};
     }
     bool adopt() override { return kernels_.adopt(); }
     std::optional<CompileProgress> compiling() const override { return kernels_.compiling(); }
-    void film_emptied() override { kernels_.film_emptied(); }
+    void film_emptied() override {
+        kernels_.film_emptied();
+        caustics_.forget(); // the scene may be another, or a stand-in may have hidden casters
+    }
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();

@@ -90,7 +90,7 @@ std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) {
 
 Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> casters, bool all) {
     started_ = true;
-    map_ = ~0u;
+    whole_ = false;
     first_radius_ = 0;
     photons_.clear();
     sources_.clear();
@@ -206,6 +206,7 @@ Result<void> CausticPhotons::begin(std::uint32_t map, std::uint32_t seed, std::u
     if (seed != seed_) first_radius_ = 0;
     map_ = map;
     seed_ = seed;
+    whole_ = false;
     photons_.clear();
     head_.per_photon = 1.f / float(paths);
     shared::PhotonMap head = head_;
@@ -269,6 +270,7 @@ Result<void> CausticPhotons::finish() {
         sorted[next[bucket[i]]++] = photons_[i];
     RESTAGE_CHECK(fill<shared::Photon>(device_, photon_buffer_, sorted, "photons"));
     RESTAGE_CHECK(fill<std::uint32_t>(device_, cells_, first, "cells of photons"));
+    whole_ = true;
     return upload(head);
 }
 

@@ -32,7 +32,7 @@ class CausticPhotons {
     // started that they cost little beside the paths, from the first sample on: pictures follow edits.
     static std::uint32_t paths_per_map(std::uint32_t pixels);
     static std::uint32_t samples_per_map(std::uint32_t pixels);
-    bool has(std::uint32_t map, std::uint32_t seed) const { return map_ == map && seed_ == seed; }
+    bool has(std::uint32_t map, std::uint32_t seed) const { return whole_ && map_ == map && seed_ == seed; }
     // Empties the map; then waves of photons, collect() after each bounce, and finish().
     Result<void> begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
     void collect(std::span<const std::uint32_t> paths); // that were shaded
@@ -56,7 +56,8 @@ class CausticPhotons {
     std::vector<shared::CasterSphere> casters_;
     std::vector<shared::Photon> photons_;
     float first_radius_ = 0; // of map 0; 0 = not known yet
-    std::uint32_t map_ = ~0u, seed_ = 0;
+    std::uint32_t map_ = 0, seed_ = 0;
+    bool whole_ = false; // the map is finished
     shared::PhotonMap head_{};
     gpu::Buffer record_, roles_, deposits_, source_buffer_, cdf_, caster_buffer_, photon_buffer_, cells_;
 };

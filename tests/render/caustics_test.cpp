@@ -143,6 +143,19 @@ TEST_CASE("caustics: equal pictures in batches of any size, with and without oth
     for (const std::uint32_t batch : {1u, 70u, 2u, 127u})
         REQUIRE(renderer->trace(batch).has_value());
     CHECK((renderer->image().color == whole.color));
+    if (b.scene.settings.value.adaptive) return;
+    renderer->reset();
+    REQUIRE(renderer->trace(16).has_value());
+    const auto sixteen = renderer->image().color;
+    for (const int calls : {0, 1, 2, 3, 5, 8, 16}) { // while shaders compile and photons are on their way, too
+        INFO("stopped at call " << calls);
+        const auto stopped = make_renderer("embree");
+        REQUIRE(stopped->sync(b.scene).has_value());
+        int called = 0;
+        REQUIRE(stopped->trace(16, [&] { return called++ < calls; }).has_value());
+        if (stopped->samples() < 16) REQUIRE(stopped->trace(16 - stopped->samples()).has_value());
+        CHECK((stopped->image().color == sixteen));
+    }
 }
 
 TEST_CASE("caustics: scenes without casters are what they were") {
