@@ -19,6 +19,7 @@ struct TracerKind {
     Result<std::unique_ptr<Tracer>> (*make)(const TracerContext&);
     int (*suits)(const gpu::DeviceInfo&); // the default is the highest
     bool needs_ray_tracing = false;       // of the device
+    bool photons = false, guides = false; // has photon maps; guides paths
 };
 std::span<const TracerKind> tracer_kinds();
 std::vector<std::string> tracer_names();
