@@ -2,6 +2,7 @@
 // Shared by the wavefront kernels: path state in arrays behind the frame's addresses.
 #ifndef RESTAGE_WAVE_COMMON
 #define RESTAGE_WAVE_COMMON
+#include "lib/light.glsl"
 #include "path/film.glsl"
 #include "shared/wave_data.h"
 
@@ -27,6 +28,13 @@ SceneData wave_scene() {
     scene.ray_epsilon = push.ray_epsilon;
     if (HAS_GUIDING) scene.guiding = FrameRef(push.frame).frame.guiding;
     return scene;
+}
+
+// What a path has met, for Guiding: light that counts with the weight of `pdf` against pdf_light.
+void note_light(uint path, Spectrum weighted, float pdf, float pdf_light) {
+    float whole = weighted.x + weighted.y + weighted.z;
+    if (pdf_light > 0.0) whole /= mis_weight(pdf, pdf_light);
+    RayArray(push.rays).at[path].ng = vec3(whole, pdf_light, 0.0);
 }
 
 // FourthData[]; not read in RGB mode.

@@ -21,7 +21,10 @@ void main() {
     if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, ray.tfar, from);
     bool counts = true;
     if (HAS_CAUSTICS) counts = !left_to_photons(path.flags, UintArray(PhotonMapRef(FrameRef(push.frame).frame.photons).map.roles).at[ray.inst]);
-    if (counts) path.radiance += surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path);
+    Spectrum before = path.radiance;
+    float pdf_light = 0.0;
+    if (counts) path.radiance += surface_emission(scene, inst, ray.prim, vec2(ray.u, ray.v), s, ray.tfar, from, path, pdf_light);
+    note_light(i, path.radiance - before, path.pdf, pdf_light);
     if (!finite(path.radiance)) {
         path.radiance = path.throughput = Spectrum(0);
         count_not_finite(material.type, i);

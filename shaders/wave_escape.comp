@@ -16,7 +16,10 @@ void main() {
     PathState path = load_path(scene, push.paths, fourths, i);
     bool counts = true;
     if (HAS_CAUSTICS) counts = !left_to_photons(path.flags, PhotonMapRef(FrameRef(push.frame).frame.photons).map.environment);
-    if (counts) path_escape(scene, receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path);
+    Spectrum before = path.radiance;
+    float pdf_light = 0.0;
+    if (counts) path_escape(scene, receiver_at(rays.at[i].origin, rays.at[i].receiver), rays.at[i].direction, path, pdf_light);
+    note_light(i, path.radiance - before, path.pdf, pdf_light);
     store_light(push.paths, fourths, i, path);
     RayArray(push.rays).at[i].tfar = -1.0;
 }

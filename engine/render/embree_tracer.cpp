@@ -325,6 +325,10 @@ class EmbreeTracer final : public Tracer {
                     if (type_count_[t] && t != type_emit)
                         dispatch(list, running_->shade(t), type_first_[t], type_count_[t]);
             }));
+            if (learning_)
+                for (const std::size_t t : {type_emit, type_escape})
+                    records_.note_light(queue_.span<const std::uint32_t>().subspan(type_first_[t], type_count_[t]),
+                                        rays_.span<shared::RayHit>());
             after_bounce();
         }
     }

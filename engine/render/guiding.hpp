@@ -32,8 +32,6 @@ class Guiding {
     std::uint64_t address() const { return address_; } // of GuidingData; 0: paths are not guided
 
   private:
-    void choose_share(Jobs& jobs);
-    float share_ = 0.5f;
     bool learns_ = false;
     std::uint32_t next_ = 0, last_ = 0; // numbers of samples where a map is due
     std::uint32_t kept_ = 0; // paths of 2^32 that are recorded

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/guiding_map.hpp"
 
+#include "shared/hash.h"
 #include "shared/octahedral.h"
 
 #include <algorithm>
@@ -18,6 +19,8 @@ constexpr std::size_t records_per_leaf = 512; // up to twice as many
 constexpr float alike = 0.8f; // of normals, on each axis
 constexpr std::size_t fewest = 64; // records that normals separate
 constexpr std::uint32_t deepest = 24;
+constexpr std::array shares = {0.f, 0.25f, 0.5f, 0.75f, 0.9f}; // of directions that the guide chooses
+constexpr double least_left = 0.1; // of a leaf's light, for the guide
 constexpr double uniform = 0.02; // part of each histogram that is spread evenly: of directions nothing is known of
 
 struct Bounds {
@@ -31,6 +34,16 @@ struct Bounds {
         return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     }
 };
+
+std::size_t cell_of(const glm::vec3& w) {
+    const glm::dvec2 p = shared::direction_to_octahedral(glm::dvec3(w)) * double(side);
+    return std::size_t(std::clamp(int(p.y), 0, side - 1) * side + std::clamp(int(p.x), 0, side - 1));
+}
+
+// All records of a path are in the same half.
+unsigned half_of(const GuidingRecord& r) {
+    return shared::pcg_hash(std::uint32_t(r.order >> 4) ^ shared::pcg_hash(std::uint32_t(r.order >> 32))) & 1;
+}
 
 float coordinate(const GuidingRecord& r, std::uint32_t axis) {
     return axis < 3 ? r.position[int(axis)] : r.normal[int(axis - 3)];
@@ -63,13 +76,39 @@ std::size_t split(std::span<GuidingRecord> records, shared::GuidingNode& node) {
     return records.size() / 2;
 }
 
-// Of what a diffuse surface scatters. Each record is a square of one cell's size around its direction, so that few make
-// a smooth histogram.
-std::array<double, cells> second_moments(std::span<const GuidingRecord> records) {
-    std::array<double, cells> out{};
+using Histogram = std::array<double, cells>; // over the cells of the octahedral map, row by row
+
+// Each record's light, as a diffuse surface scatters it, without what light sampling finds well: of the light that a ray
+// meets directly, 1 - E^2 / M is left, by the mean E and the second moment M of light sampling alone. With nothing
+// between the lamp and these places M is E^2; through a small window it is far more. 0 if little is left altogether.
+std::vector<float> guided_light(std::span<const GuidingRecord> records) {
+    double mean = 0, moment = 0;
     for (const GuidingRecord& r : records) {
-        const double light = double(r.radiance) * std::abs(glm::dot(r.normal, r.direction));
-        const double value = light * light / r.pdf;
+        if (!(r.light_pdf > 0)) continue;
+        const double light = double(r.light) * std::abs(glm::dot(r.normal, r.direction));
+        mean += light / r.pdf;
+        moment += light * light / (double(r.pdf) * r.light_pdf);
+    }
+    const double left = moment > 0 ? 1 - std::min(mean * mean / (moment * double(records.size())), 1.0) : 0;
+    std::vector<float> out;
+    double guided = 0, all = 0;
+    for (const GuidingRecord& r : records) {
+        const float cosine = std::abs(glm::dot(r.normal, r.direction));
+        out.push_back((r.radiance + float(left) * r.light) * cosine);
+        guided += out.back() / r.pdf;
+        all += (r.radiance + r.light) * cosine / r.pdf;
+    }
+    return guided > least_left * all ? out : std::vector<float>(records.size());
+}
+
+// Of the light from each direction. Each record is a square of one cell's size around its direction, so that few make a
+// smooth histogram. part: 0 or 1: of this half of the records; 2: of all
+Histogram second_moments(std::span<const GuidingRecord> records, std::span<const float> light, unsigned part) {
+    Histogram out{};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const GuidingRecord& r = records[i];
+        if (!(light[i] > 0) || half_of(r) == 1 - part) continue;
+        const double value = double(light[i]) * light[i] / r.pdf;
         const glm::dvec2 p = shared::direction_to_octahedral(glm::dvec3(r.direction)) * double(side) - 0.5;
         const glm::dvec2 first = glm::floor(p), w = p - first;
         for (int k = 0; k < 4; ++k) {
@@ -82,15 +121,40 @@ std::array<double, cells> second_moments(std::span<const GuidingRecord> records)
     return out;
 }
 
-shared::GuidingLeaf leaf(std::span<const GuidingRecord> records, float share) {
-    std::array<double, cells> h = second_moments(records);
+// Probabilities of the cells; false: there is no light.
+bool normalize(Histogram& h) {
     double sum = 0;
     for (double& v : h)
         sum += v = std::sqrt(v);
     for (double& v : h)
         v = sum > 0 ? v / sum * (1 - uniform) + uniform / cells : 1.0 / cells;
+    return sum > 0;
+}
+
+// The share with the least second moment of the light that a diffuse surface scatters: a map of each half of the records
+// is tried on the other.
+float best_share(std::span<const GuidingRecord> records, std::span<const float> light) {
+    std::array<double, shares.size()> moments{};
+    for (unsigned part = 0; part < 2; ++part) {
+        Histogram h = second_moments(records, light, part);
+        normalize(h);
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const GuidingRecord& r = records[i];
+            if (!(light[i] > 0) || half_of(r) == part) continue;
+            const double bsdf = std::abs(glm::dot(r.normal, r.direction)) / std::numbers::pi;
+            const double guide = h[cell_of(r.direction)] * cells / (4 * std::numbers::pi);
+            for (std::size_t k = 0; k < shares.size(); ++k)
+                moments[k] += double(light[i]) * light[i] / (r.pdf * (shares[k] * guide + (1 - shares[k]) * bsdf));
+        }
+    }
+    return shares[std::size_t(std::ranges::min_element(moments) - moments.begin())];
+}
+
+shared::GuidingLeaf leaf(std::span<const GuidingRecord> records) {
+    const std::vector<float> light = guided_light(records);
+    Histogram h = second_moments(records, light, 2);
     shared::GuidingLeaf out{};
-    out.share = sum > 0 ? share : 0;
+    out.share = normalize(h) ? best_share(records, light) : 0;
     double rows = 0;
     for (int y = 0; y < side; ++y) {
         const double row = std::accumulate(h.begin() + y * side, h.begin() + (y + 1) * side, 0.0);
@@ -115,7 +179,7 @@ shared::GuidingLeaf leaf(std::span<const GuidingRecord> records, float share) {
 
 } // namespace
 
-GuidingMap GuidingMap::make(std::vector<GuidingRecord>& records, float share, Jobs& jobs) {
+GuidingMap GuidingMap::make(std::vector<GuidingRecord>& records, Jobs& jobs) {
     GuidingMap map;
     std::ranges::sort(records, {}, &GuidingRecord::order);
     std::vector<std::span<GuidingRecord>> parts; // of the leaves
@@ -146,7 +210,7 @@ GuidingMap GuidingMap::make(std::vector<GuidingRecord>& records, float share, Jo
     map.leaves.resize(parts.size());
     jobs.parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t k = begin; k < end; ++k)
-            map.leaves[k] = leaf(parts[k], share);
+            map.leaves[k] = leaf(parts[k]);
     });
     return map;
 }
@@ -162,27 +226,7 @@ std::uint32_t GuidingMap::leaf_of(const glm::vec3& p, const glm::vec3& normal) c
 }
 
 float GuidingMap::density(std::uint32_t leaf, const glm::vec3& w) const {
-    const glm::dvec2 p = shared::direction_to_octahedral(glm::dvec3(w)) * double(side);
-    const int x = std::clamp(int(p.x), 0, side - 1), y = std::clamp(int(p.y), 0, side - 1);
-    return leaves[leaf].density[y * side + x];
-}
-
-double GuidingMap::relative_moment(std::span<const GuidingRecord> records, float share) const {
-    if (records.empty()) return 1;
-    std::vector<float> contributions;
-    for (const GuidingRecord& r : records)
-        contributions.push_back(r.contribution);
-    // The very largest say more about chance than about the scene.
-    const auto high = contributions.begin() + std::ptrdiff_t(double(contributions.size() - 1) * 0.999);
-    std::ranges::nth_element(contributions, high);
-    double guided = 0, all = 0;
-    for (const GuidingRecord& r : records) {
-        const double square = std::pow(std::min(r.contribution, *high), 2);
-        const double guide = density(leaf_of(r.position, r.normal), r.direction);
-        guided += square * r.pdf / (share * guide + (1 - share) * r.pdf);
-        all += square;
-    }
-    return guided / all;
+    return leaves[leaf].density[cell_of(w)];
 }
 
 } // namespace restage::render

@@ -20,9 +20,10 @@ struct GuidingRecord {
     glm::vec3 position{0}; // world space of the kernels
     glm::vec3 normal{0}; // about unit
     glm::vec3 direction{0}; // unit, towards the light
-    float radiance = 0; // that arrived, mean of the colours; above 0
+    float radiance = 0; // that arrived [0, inf), sum of the colours; without:
+    float light = 0; // of lamps and the sky along this very ray, not weighted [0, inf)
+    float light_pdf = 0; // with which light sampling finds that, per solid angle; 0: it does not
     float pdf = 0; // with which the direction was chosen, per solid angle; above 0
-    float contribution = 0; // of it to the pixel
 };
 
 struct GuidingMap {
@@ -30,12 +31,8 @@ struct GuidingMap {
     std::vector<shared::GuidingNode> nodes;
     std::vector<shared::GuidingLeaf> leaves;
 
-    // Sorts the records; the result depends on the set of them alone. share: of the guide [0, 1).
-    static GuidingMap make(std::vector<GuidingRecord>& records, float share, Jobs& jobs);
-
-    // The second moment that paths like these, which the BSDF alone sent, would have with this share of guided
-    // directions, relative to theirs. Below 1 where guiding pays. The records must be others than the map's.
-    double relative_moment(std::span<const GuidingRecord> records, float share) const;
+    // Sorts the records; the result depends on the set of them alone.
+    static GuidingMap make(std::vector<GuidingRecord>& records, Jobs& jobs);
 
     // As shaders/lib/guiding.glsl.
     std::uint32_t leaf_of(const glm::vec3& p, const glm::vec3& normal) const;

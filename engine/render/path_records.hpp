@@ -18,6 +18,7 @@ struct PathRecord {
     float pdf = 0;
     float throughput = 0, radiance = 0; // of the path when the ray left, sums of the colours; radiance: with its lamps
     std::uint32_t depth = 0; // vertices before it
+    float light = 0, light_pdf = 0; // that it met, with its whole weight; and with which light sampling finds that
 };
 
 class PathRecords {
@@ -29,11 +30,14 @@ class PathRecords {
     // out.
     void note(std::span<const std::uint32_t> active, std::span<const shared::PathState> paths,
               std::span<const shared::RayHit> rays, Jobs& jobs);
+    // Light that the last ray of these paths met, after the kernels that add it.
+    void note_light(std::span<const std::uint32_t> met, std::span<const shared::RayHit> rays);
     std::span<const PathRecord> of(std::size_t path) const { return {&records_[path * most], count_[path]}; }
 
   private:
     std::vector<PathRecord> records_;
     std::vector<std::uint8_t> count_;
+    std::vector<std::uint8_t> fresh_; // whether the last record is of the ray traced last
 };
 
 } // namespace restage::render

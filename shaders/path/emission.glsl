@@ -21,8 +21,11 @@ Spectrum absorb_to_hit(SceneData scene, uint medium, float t, StepRay ray) {
     return absorb(scene, medium, HAS_GLOW ? t - ray.tmin : t);
 }
 
-// What a surface that emits adds to a path that hits it, of `ray` at t; path.throughput: at the hit.
-Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface s, float t, StepRay ray, PathState path) {
+// What a surface that emits adds to a path that hits it, of `ray` at t; path.throughput: at the hit. pdf_light: as of
+// path_escape
+Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 bary, Surface s, float t, StepRay ray, PathState path,
+                          out float pdf_light) {
+    pdf_light = 0.0;
     uint depth = path.flags & PATH_DEPTH_MASK;
     float c = dot(-ray.direction, s.ng);
     if ((inst.flags & INSTANCE_TWO_SIDED) != 0u) c = abs(c);
@@ -30,7 +33,7 @@ Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 ba
     float w = 1.0;
     if (LIGHT_ROOTS > 0u && (path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2 && inst.light_base != NONE) {
         LightData light = load_light(scene.lights, inst.light_base + prim);
-        float pdf_light = light.pmf * light_choice_pmf(scene, receiver_at(ray.origin, ray.receiver), light.node);
+        pdf_light = light.pmf * light_choice_pmf(scene, receiver_at(ray.origin, ray.receiver), light.node);
         if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
             pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);
         else

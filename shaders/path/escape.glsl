@@ -18,8 +18,10 @@ Spectrum absorb(SceneData scene, uint medium, float distance_) {
     return exp(-distance_ * stored_spectrum(MediumArray(scene.media).at[medium].sigma_a));
 }
 
-// Radiance of the environment for a path that left the scene from its last vertex, `from`.
-void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState path) {
+// Radiance of the environment for a path that left the scene from its last vertex, `from`. pdf_light: density with which
+// light sampling finds it; 0: never, or it counts whole.
+void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState path, out float pdf_light) {
+    pdf_light = 0.0;
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
     uint depth = path.flags & PATH_DEPTH_MASK;
     // Directly from the camera, also through cut-outs and null surfaces; glass and mirrors show it.
@@ -28,7 +30,7 @@ void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState
     Spectrum le = environment_eval(scene.environment, direction, pdf_env);
     float w = 1.0;
     if ((path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2) {
-        float pdf_light = pdf_env * light_choice_pmf(scene, from, LightArray(scene.lights).at[scene.environment.light].node);
+        pdf_light = pdf_env * light_choice_pmf(scene, from, LightArray(scene.lights).at[scene.environment.light].node);
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
     if (HAS_MEDIA) le *= absorb(scene, path.medium, 1e30); // infinitely far behind the absorber

@@ -50,7 +50,9 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     if (HAS_MEDIA) path.throughput *= absorb_to_hit(scene, path.medium, t, ray);
 
 #ifndef EMISSION_APART
-    if ((inst.flags & INSTANCE_EMITS) != 0u) path.radiance += surface_emission(scene, inst, prim, bary, s, t, ray, path);
+    float pdf_light;
+    if ((inst.flags & INSTANCE_EMITS) != 0u)
+        path.radiance += surface_emission(scene, inst, prim, bary, s, t, ray, path, pdf_light);
 #endif
 
     // A lamp without a surface: the ray keeps its origin, so that distances stay those to the last vertex.

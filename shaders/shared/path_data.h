@@ -37,7 +37,7 @@ struct RayHit { // 80 bytes
     uint mask;
     uint receiver; // receiver_bits at its origin (lib/light_tree.glsl); Embree's id
     uint flags;
-    vec3 ng; // not used
+    vec3 ng; // Embree's. Kernels: (sum of the light that a path meets, the density of light sampling there, 0)
     float u, v;
     uint prim;
     uint geom; // out: NONE = missed; else the CPU pass writes the resolved material here
