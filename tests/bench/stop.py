@@ -3,12 +3,13 @@
 
     python tests/bench/stop.py SCENE... [--size 48x48] [--samples 32 128] [--seeds 8]
 
-E is what a rendering with another seed claims after each of --samples. The error at the stop is the spread of the seeds' pictures around
+E is what renderings with other seeds claim after each of --samples (the median of three). The error at the stop is the spread of the seeds' pictures around
 their mean, in the measure of --error (engine/render/film_error.hpp): no reference takes part. The luminance that errors are relative to is the mean of
 all the scene's pictures, by their samples."""
 import argparse
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -25,10 +26,10 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 def render(scene, size, seed, *options):
     """(luminance [height, width], samples per pixel, claimed relative error)"""
     with tempfile.TemporaryDirectory() as folder:
-        out, statistics = pathlib.Path(folder, "x.exr"), pathlib.Path(folder, "x.json")
-        subprocess.run([PROGRAM, "--quiet", "render", scene, "-o", out, "--size", size, "--seed", str(seed), "--statistics", statistics, *options],
+        out, file = pathlib.Path(folder, "x.exr"), pathlib.Path(folder, "x.json")
+        subprocess.run([PROGRAM, "--quiet", "render", scene, "-o", out, "--size", size, "--seed", str(seed), "--statistics", file, *options],
                        check=True, capture_output=True)
-        planes, figures = exr_file.read(out), json.loads(statistics.read_text())
+        planes, figures = exr_file.read(out), json.loads(file.read_text())
     return sum(w * planes[c].astype(float) for w, c in zip(LUMINANCE, "RGB")), figures["samples"], figures["relative_error"]
 
 
@@ -41,7 +42,7 @@ def measure(scene, size, samples, seeds):
     """One row per number of samples: the error asked for, the true one at the stop and the mean of the claimed ones, and the samples of each seed."""
     runs = {}
     for n in samples:
-        error = render(scene, size, 1000, "--spp", str(n))[2]
+        error = statistics.median(render(scene, size, seed, "--spp", str(n))[2] for seed in range(1000, 1003))
         runs[error] = [render(scene, size, seed, "--error", str(error)) for seed in range(seeds)]
     every = [run for group in runs.values() for run in group]
     light = np.average([picture for picture, _, _ in every], axis=0, weights=[n for _, n, _ in every])
