@@ -3,13 +3,11 @@
 
     python tests/bench/stop.py SCENE... [--size 48x48] [--samples 32 128] [--seeds 8]
 
-E is what renderings with other seeds claim after each of --samples (the median of three). The error at the stop is the spread of the seeds' pictures around
-their mean, in the measure of --error (engine/render/film_error.hpp): no reference takes part. The luminance that errors are relative to is the mean of
-all the scene's pictures, by their samples."""
+E is such that about each of --samples are needed. The error at the stop is the spread of the seeds' pictures around their mean, in the measure of
+--error (engine/render/film_error.hpp), relative to the luminance of a long rendering: in the mean of a few pictures a firefly would hide itself."""
 import argparse
 import json
 import pathlib
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -40,14 +38,13 @@ def true_error(pictures, light):
 
 def measure(scene, size, samples, seeds):
     """One row per number of samples: the error asked for, the true one at the stop and the mean of the claimed ones, and the samples of each seed."""
-    runs = {}
+    light, long, error_then = render(scene, size, 1000, "--spp", str(8 * max(samples)))
+    rows = []
     for n in samples:
-        error = statistics.median(render(scene, size, seed, "--spp", str(n))[2] for seed in range(1000, 1003))
-        runs[error] = [render(scene, size, seed, "--error", str(error)) for seed in range(seeds)]
-    every = [run for group in runs.values() for run in group]
-    light = np.average([picture for picture, _, _ in every], axis=0, weights=[n for _, n, _ in every])
-    return [{"asked": error, "true": true_error([picture for picture, _, _ in group], light), "claimed": float(np.mean([claim for _, _, claim in group])),
-             "samples": [n for _, n, _ in group]} for error, group in runs.items()]
+        error = error_then * (long / n) ** 0.5
+        pictures, taken, claims = zip(*(render(scene, size, seed, "--error", str(error)) for seed in range(seeds)))
+        rows.append({"asked": error, "true": true_error(pictures, light), "claimed": float(np.mean(claims)), "samples": taken})
+    return rows
 
 
 def table(rows):
