@@ -76,7 +76,7 @@ def features(bench):
     rows = {}
     for variant in ("alone", "types", "features", "all"):
         with tempfile.TemporaryDirectory() as cache:
-            env = {"RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            env = {"XDG_CACHE_HOME": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
             cold = bench.measure("features", variant, runs=0, env=env)
             code = sum(f.stat().st_size for f in pathlib.Path(cache, "mesa").rglob("*") if f.is_file() and f.name != "index")
             warm = bench.measure("features", variant, env=env)
@@ -97,7 +97,7 @@ def first_image(bench):
     scene = scenes / "kitchen/scene.pbrt"
     with tempfile.TemporaryDirectory() as folder:
         def once(cache):
-            env = {**os.environ, "RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            env = {**os.environ, "XDG_CACHE_HOME": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
             before, start = os.times(), time.monotonic()
             subprocess.run([str(bench.restage), "-q", "render", str(scene), "-o", f"{folder}/image.exr", "--spp", "1", "--size",
                             "640x360", "--tracer", "embree"], check=True, env=env, stdout=subprocess.DEVNULL)
@@ -106,7 +106,7 @@ def first_image(bench):
 
         cold = [once(f"{folder}/cold{i}") for i in range(1 if bench.quick else bench.runs)]
         warm = [once(f"{folder}/cold0") for _ in range(bench.runs)]
-        env = {"RESTAGE_CACHE_DIR": f"{folder}/cold0", "MESA_SHADER_CACHE_DIR": f"{folder}/cold0/mesa"}
+        env = {"XDG_CACHE_HOME": f"{folder}/cold0", "MESA_SHADER_CACHE_DIR": f"{folder}/cold0/mesa"}
         return {"target_seconds": 5, "cold": cold, "warm": warm, "stages_warm": bench.measure("first-image", scene, env=env)}
 
 
