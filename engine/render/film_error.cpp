@@ -91,9 +91,9 @@ float independent_variance(const FilmImage& film, std::size_t i) {
     return a > 0 && b > 0 ? film.luminance_variance[i] * (b / a) : film.luminance_variance[i];
 }
 
-// A pixel's own luminance is a bad measure of its error: a firefly raises both, and where the light was not met yet both
-// are too small. The mean of its neighbours is independent of it, and is used as far as the pixel's own error allows:
-// at an edge it is wrong, but there the pixel's own is precise sooner or later.
+// A pixel's own luminance is a bad measure of its error: a firefly raises both, and where the light was not met yet
+// both are too small. The mean of its neighbours is independent of it, and is used as far as the pixel's own error
+// allows: at an edge it is wrong, but there the pixel's own is precise sooner or later.
 double relative_error(const FilmImage& film) {
     if (film.samples < 2) return 1e30;
     std::vector<Sum> nearby(film.pixels());

@@ -20,7 +20,8 @@ bool keeps_everything() {
 
 // But for techniques and spectra, which need data of their own, and borders, which the CPU's side handles.
 SceneFeatures all_features(SceneFeatures f) {
-    f.environment = f.lens = f.media = f.filter_table = f.emission_textures = f.light_alpha = f.glow = f.quadrics = true;
+    f.environment = f.lens = f.media = f.filter_table = f.emission_textures = f.light_alpha = f.glow = f.quadrics =
+        true;
     f.lights = LIGHTS_MESHES | LIGHTS_SURFACES | LIGHTS_LAMPS;
     if (f.light_roots > 0) f.light_roots = std::max(f.light_roots, 8u); // the root's children are padded to so many
     return f;

@@ -181,7 +181,8 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         .def_ro("fraction", &Progress::fraction, "0 to 1, an estimate.")
         .def_ro("samples", &Progress::samples, "Samples per pixel so far.")
         .def_ro("seconds", &Progress::seconds, "Time since the first sample [s].")
-        .def_ro("relative_error", &Progress::relative_error, "The error when last looked at if error is the target; else 1e30.")
+        .def_ro("relative_error", &Progress::relative_error,
+                "The error when last looked at if error is the target; else 1e30.")
         .def("__repr__", [](const Progress& p) {
             return "<restage.Progress " + std::to_string(int(100 * p.fraction)) + " %, " + std::to_string(p.samples) +
                    " samples a pixel>";

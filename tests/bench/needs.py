@@ -78,6 +78,10 @@ def measure(scene, size, samples, runs):
         return {**rows, "z": rms_z(pictures["needed"], pictures["all"])}
 
 
+def name_of(scene):
+    return scene.parent.name if scene.stem == "scene" else scene.stem
+
+
 def table(rows):
     lines = ["| scene | kernels | SPIR-V KiB | machine code KiB | first sample, CPU-s | CPU ms per sample | its ratio | scene KiB | z |",
              "|---|---|---|---|---|---|---|---|---|"]
@@ -98,7 +102,7 @@ def main():
     options = parser.parse_args()
     rows = {}
     for scene in options.scenes:
-        name = scene.parent.name if scene.stem == "scene" else scene.stem
+        name = name_of(scene)
         rows[name] = measure(scene, options.size, options.samples, options.runs)
         print(table({name: rows[name]}).splitlines()[2], file=sys.stderr, flush=True)
     print(table(rows))

@@ -2,6 +2,8 @@
 """bench.json as a page: docs/bench/README.md, with charts beside it."""
 import statistics
 
+import needs as needs_script
+
 
 def spread(values, form="{:.2f}"):
     """Median and range."""
@@ -92,6 +94,11 @@ def features(f):
                    "first sample, cold, CPU-s", "warm, CPU-s"], rows))
 
 
+def needs(f):
+    return ("## No more than a scene needs\n\nEach scene as usual / with shaders that keep all features which scenes can have (textures, bump, environment, lens, "
+            "media, quadrics, lamps of each kind ...), in turns, 64x64, 64 samples. By needs.py, which says what the columns are.\n\n" + needs_script.table(f) + "\n")
+
+
 def multiscatter(f):
     rows = []
     for name, v in f.items():
@@ -173,7 +180,7 @@ def editor(f):
             f"Frames of the window while it renders: median {ui['median']:.0f} ms, 99 % {ui['p99']:.0f} ms (target 50 ms).\n")
 
 
-SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor}
+SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "needs": needs, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor}
 
 
 def machine_line(m):

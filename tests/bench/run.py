@@ -18,6 +18,7 @@ import time
 
 import editor
 import machine
+import needs
 import report
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -85,6 +86,16 @@ def features(bench):
     return rows
 
 
+def needs_of_scenes(bench):
+    """Of the bundled scenes and all of RESTAGE_SCENES."""
+    needs.PROGRAM = bench.restage
+    files = [ROOT / f"scenes/{name}/{name}.pbrt" for name in ("cornell", "spheres", "demo")]
+    others = folder_of("RESTAGE_SCENES")
+    if others:
+        files += sorted(others.glob("*/scene.pbrt"))
+    return {needs.name_of(f): needs.measure(f, "64x64", 64, bench.runs) for f in (files[:1] if bench.quick else files)}
+
+
 def multiscatter(bench):
     return bench.measure("multiscatter")
 
@@ -140,7 +151,7 @@ def editor_latency(bench):
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "needs": needs_of_scenes, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor_latency}
 
 
 def main():

@@ -3,11 +3,12 @@
 
     python tests/bench/stop.py SCENE... [--size 48x48] [--samples 32 128] [--seeds 8]
 
-E is such that about each of --samples are needed. The error at the stop is the spread of the seeds' pictures around their mean, in the measure of
+E is what renderings with other seeds claim after each of --samples (the median of three). The error at the stop is the spread of the seeds' pictures around their mean, in the measure of
 --error (engine/render/film_error.hpp), relative to the luminance of a long rendering: in the mean of a few pictures a firefly would hide itself."""
 import argparse
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -38,10 +39,10 @@ def true_error(pictures, light):
 
 def measure(scene, size, samples, seeds):
     """One row per number of samples: the error asked for, the true one at the stop and the mean of the claimed ones, and the samples of each seed."""
-    light, long, error_then = render(scene, size, 1000, "--spp", str(8 * max(samples)))
+    light, _, _ = render(scene, size, 1000, "--spp", str(8 * max(samples)))
     rows = []
     for n in samples:
-        error = error_then * (long / n) ** 0.5
+        error = statistics.median(render(scene, size, seed, "--spp", str(n))[2] for seed in range(1001, 1004))
         pictures, taken, claims = zip(*(render(scene, size, seed, "--error", str(error)) for seed in range(seeds)))
         rows.append({"asked": error, "true": true_error(pictures, light), "claimed": float(np.mean(claims)), "samples": taken})
     return rows
