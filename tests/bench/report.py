@@ -161,11 +161,10 @@ def chart(f):
     for name, scene in f["scenes"].items():
         for c in scene["configurations"]:
             last, trimmed = c["curve"][-1], c["curve_trimmed"][-1]
-            rows.append([name, c["name"], last["samples"], f"{last['cpu']:.2f}", f"{last['error']:.2e} ({last['low']:.1e}–{last['high']:.1e})",
+            rows.append([f"{name}, {scene['width']}x{scene['height']}, {scene['seeds']} seeds", c["name"], last["samples"], f"{last['cpu']:.2f}", f"{last['error']:.2e} ({last['low']:.1e}–{last['high']:.1e})",
                          f"{trimmed['error']:.2e}", f"{trimmed['error'] * last['cpu']:.2e}"])
-    size = next(iter(f["scenes"].values()))
-    return ("## Configurations and other renderers\n\n" + HOW + "The page: [chart/index.html](chart/index.html). Here: "
-            f"{size['width']}x{size['height']}, {size['seeds']} seeds; *trimmed* leaves out the thousandth of the pixels that differ most.\n\n" + scenes +
+    return ("## Configurations and other renderers\n\n" + HOW + "The page: [chart/index.html](chart/index.html). "
+            "*Trimmed* leaves out the thousandth of the pixels that differ most.\n\n" + scenes +
             table(["scene", "", "samples", "CPU-s", "relMSE", "trimmed", "trimmed x CPU-s"], rows))
 
 
@@ -189,8 +188,9 @@ def machine_line(m):
 
 def measured_line(row, several_machines):
     """When a row was measured, of which commit, and how busy the machine was."""
-    line = (f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}; others used "
-            f"{100 * row['others_cpu']:.0f} % of the cores meanwhile")
+    line = f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}"
+    if row["others_cpu"] is not None:
+        line += f"; others used {100 * row['others_cpu']:.0f} % of the cores meanwhile"
     if several_machines:
         line += f"; on {machine_line(row['machine'])}"
     return line + ("; a quick run, not the full measurement.\n" if row["quick"] else ".\n")
