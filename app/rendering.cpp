@@ -7,6 +7,7 @@
 #include "document/session.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
+#include "render/film_error.hpp"
 #include "render/tracers.hpp"
 #include "scene/tables.hpp"
 #include "scene/techniques.hpp"
@@ -253,9 +254,11 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     const bool open_ended = o.seconds > 0 || o.error > 0;
     const std::uint32_t target = open_ended ? 1u << 24 : o.spp ? o.spp : file_spp;
     std::uint32_t batch = 1;
+    double error = 0, done_at_look = 0; // when looked at last
     while (renderer.samples() < target && !interrupted()) {
         const double before = now_seconds();
         batch = std::min(batch, target - renderer.samples());
+        if (o.error > 0) batch = std::min(batch, render::next_look(renderer.samples()) - renderer.samples());
         RESTAGE_CHECK(renderer.or_revive(renderer.trace(batch, [] { return !interrupted(); }), scene, revived));
         const double now = now_seconds(), took = now - before, elapsed = now - start;
         if (spent) {
@@ -268,10 +271,13 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
             done = std::min(1.0, elapsed / o.seconds);
             if (elapsed >= o.seconds) break;
         } else if (o.error > 0) {
-            const double error = renderer.relative_error();
-            done = error > 0 ? std::min(1.0, (o.error * o.error) / (error * error)) : 1;
-            if (renderer.samples() > 1) note += fmt::format(", error {:.4f}", error);
-            if (renderer.samples() >= 8 && error <= o.error) break;
+            if (render::is_look(renderer.samples())) {
+                error = renderer.relative_error();
+                done_at_look = error > 0 ? std::min(1.0, (o.error * o.error) / (error * error)) : 1;
+                if (error <= o.error) break;
+            }
+            done = done_at_look;
+            if (error > 0) note += fmt::format(", error {:.4f}", error);
         }
         bar.show(done, note);
         // Batches of about 0.2 s, none beyond a time target.

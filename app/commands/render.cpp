@@ -90,6 +90,8 @@ nlohmann::ordered_json statistics(const Options& o, render::Renderer& renderer, 
                                    {"not_finite", dropped},
                                    {"dropped", stats.dropped},
                                    {"denoiser", picture.denoiser},
+                                   {"shader_bytes", stats.shader_bytes},
+                                   {"scene_bytes", renderer.gpu_scene().bytes()},
                                    {"tracer", renderer.tracer_name()},
                                    {"device", renderer.device().info().name}};
     if (picture.film.samples > 1) json["relative_error"] = relative_error;

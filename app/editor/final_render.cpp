@@ -7,6 +7,7 @@
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "render/denoise.hpp"
+#include "render/film_error.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
 #include "view/picture.hpp"
@@ -86,18 +87,21 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
     const bool denoise = wish.denoise && !registry.denoisers().empty();
     const double traced = denoise ? 0.97 : 1.0, start = now_seconds();
     std::uint32_t batch = 1;
+    double error = 0; // when looked at last
     while (renderer->samples() < wish.samples && !job.stopping()) {
         const double before = now_seconds();
-        RESTAGE_CHECK(renderer->or_revive(
-            renderer->trace(std::min(batch, wish.samples - renderer->samples()), [&] { return !job.stopping(); }),
-            scene, revived));
+        batch = std::min(batch, wish.samples - renderer->samples());
+        if (wish.error > 0) batch = std::min(batch, render::next_look(renderer->samples()) - renderer->samples());
+        RESTAGE_CHECK(renderer->or_revive(renderer->trace(batch, [&] { return !job.stopping(); }), scene, revived));
         double done = double(renderer->samples()) / wish.samples;
         std::string stage = fmt::format("{} of {} samples per pixel", renderer->samples(), wish.samples);
-        if (wish.error > 0 && renderer->samples() >= 8) {
-            const double error = renderer->relative_error();
-            stage += fmt::format(", {:.2f} % error", error * 100);
-            done = std::max(done, error > 0 ? std::min(1.0, std::pow(double(wish.error) / error, 2.0)) : 1.0);
+        if (wish.error > 0 && render::is_look(renderer->samples())) {
+            error = renderer->relative_error();
             if (error <= double(wish.error)) break;
+        }
+        if (error > 0) {
+            stage += fmt::format(", {:.2f} % error", error * 100);
+            done = std::max(done, std::pow(double(wish.error) / error, 2.0));
         }
         if (!job.report(done * traced, stage)) break;
         // Batches of about 0.2 s, so that a stop is quick and the bar moves.

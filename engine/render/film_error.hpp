@@ -7,6 +7,8 @@
 
 #include "render/film_layers.hpp"
 
+#include <cstdint>
+
 namespace restage::render {
 
 double luminance(const glm::dvec3& linear_srgb);
@@ -19,7 +21,12 @@ void correct_errors(FilmImage& film);
 float independent_variance(const FilmImage& film, std::size_t pixel);
 
 // Root mean square over pixels of (standard error of luminance / (luminance + 0.01)), the measure of --error; 1e30 with
-// fewer than two samples. Luminance counts up to that of the brightest neighbour.
+// fewer than two samples. Where a pixel is noisy, its luminance is that of its neighbours.
 double relative_error(const FilmImage& film);
+
+// A rendering to a relative error looks at it at some numbers of samples per pixel only, from 16 on four times per
+// doubling: so the stop depends on the samples, not on batches, and a moment of luck rarely ends it.
+std::uint32_t next_look(std::uint32_t samples); // the first such number above `samples`
+inline bool is_look(std::uint32_t samples) { return samples > 0 && next_look(samples - 1) == samples; }
 
 } // namespace restage::render

@@ -295,7 +295,7 @@ struct LiveView::Impl {
         const ViewOptions& o = work.request->options;
         return o.paused || (o.samples && work.renderer->samples() >= o.samples) ||
                (o.seconds > 0 && seconds_since(work.request->time) >= o.seconds) ||
-               (o.error > 0 && work.renderer->samples() >= 8 && work.renderer->relative_error() <= o.error);
+               (o.error > 0 && render::is_look(work.renderer->samples()) && work.renderer->relative_error() <= o.error);
     }
 
     // One sample per pixel. The first pass of a request is always finished, so that something shows however fast

@@ -4,6 +4,7 @@
 #include "pulse.hpp"
 
 #include "render/denoise.hpp"
+#include "render/film_error.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ Result<void> trace(render::Renderer& renderer, const Target& target, Pulse& puls
     const std::uint32_t limit = target.samples ? target.samples : 1u << 24;
     while (renderer.samples() < limit) {
         batch = std::min(batch, limit - renderer.samples());
+        if (target.error > 0) batch = std::min(batch, render::next_look(renderer.samples()) - renderer.samples());
         const std::uint32_t done_before = renderer.samples();
         const double before = now_seconds();
         RESTAGE_CHECK(renderer.trace(batch, [&] { return pulse.keep_going(); }));
@@ -53,10 +55,10 @@ Result<void> trace(render::Renderer& renderer, const Target& target, Pulse& puls
         progress.fraction = double(renderer.samples()) / limit;
         if (target.seconds > 0) progress.fraction = std::min(1.0, progress.seconds / target.seconds);
         if (target.error > 0) {
-            progress.relative_error = renderer.relative_error();
+            if (render::is_look(renderer.samples())) progress.relative_error = renderer.relative_error();
             const double e = progress.relative_error;
             progress.fraction = e > 0 ? std::min(1.0, target.error * target.error / (e * e)) : 1;
-            if (renderer.samples() >= 8 && e <= target.error) break;
+            if (e <= target.error) break;
         }
         if (target.seconds > 0 && progress.seconds >= target.seconds) break;
         if (pulse.stopped() || renderer.samples() == done_before) return {};
@@ -179,7 +181,8 @@ void bind_render(nb::module_& m, nb::class_<Workspace>& c) {
         .def_ro("fraction", &Progress::fraction, "0 to 1, an estimate.")
         .def_ro("samples", &Progress::samples, "Samples per pixel so far.")
         .def_ro("seconds", &Progress::seconds, "Time since the first sample [s].")
-        .def_ro("relative_error", &Progress::relative_error, "The current error if error is the target; else 1e30.")
+        .def_ro("relative_error", &Progress::relative_error,
+                "The error when last looked at if error is the target; else 1e30.")
         .def("__repr__", [](const Progress& p) {
             return "<restage.Progress " + std::to_string(int(100 * p.fraction)) + " %, " + std::to_string(p.samples) +
                    " samples a pixel>";

@@ -69,7 +69,6 @@ struct Options { // of all measurements
     int runs = 3;
     bool quick = false;
     unsigned threads = 0;
-    std::uint32_t samples = 256; // per pixel, at the end of error curves
 };
 
 Json measure_rays(const Options&);
@@ -83,6 +82,5 @@ Json measure_multiscatter(const Options&);
 Json measure_first_image(const std::string& scene);
 // References of `reference_spp` samples in all are kept in `folder`.
 Json measure_standard(const Options&, const std::string& scene, const std::string& folder, std::uint32_t reference_spp);
-Json measure_error(const Options&, const std::string& scene, const std::string& half1, const std::string& half2);
 
 } // namespace restage::bench

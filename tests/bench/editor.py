@@ -47,7 +47,7 @@ def measure(binary, scene, picture_of_object):
     """`picture_of_object`: where in the picture (u, v) something can be picked. Caches are warm but for the new type."""
     with tempfile.TemporaryDirectory() as folder:
         desk = Desk(pathlib.Path(folder) / "desk")
-        environment = {"RESTAGE_CACHE_DIR": f"{folder}/cache", "MESA_SHADER_CACHE_DIR": f"{folder}/cache/mesa"}
+        environment = {"XDG_CACHE_HOME": f"{folder}/cache", "MESA_SHADER_CACHE_DIR": f"{folder}/cache/mesa"}
 
         def start():
             return Editor(desk, binary, scene, config=f"{folder}/config", probe=f"{folder}/probe.json", environment=environment)

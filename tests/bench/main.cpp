@@ -14,8 +14,6 @@ int main(int argc, char** argv) {
     program.add_option("--runs", o.runs, "How often each figure is measured")->capture_default_str();
     program.add_flag("--quick", o.quick, "Less of everything");
     program.add_option("--threads", o.threads, "0 = all")->capture_default_str();
-    program.add_option("--samples", o.samples, "Where error curves end; strategies for study end at half of it")
-        ->capture_default_str();
     program.add_subcommand("rays", "Rays per second in the room")->callback([&] { result = measure_rays(o); });
     program.add_subcommand("cutouts", "Rays per second among cards: opaque, cut out by native code, by GLSL only")
         ->callback([&] { result = measure_cutouts(o); });
@@ -27,7 +25,7 @@ int main(int argc, char** argv) {
     program.add_subcommand("actions", "Copies scattered over a large surface by an action")->callback([&] {
         result = measure_actions(o);
     });
-    std::string variant, scene, folder, half1, half2;
+    std::string variant, scene, folder;
     std::uint32_t reference_spp = 256;
     auto* features = program.add_subcommand("features", "The Cornell box and what else its scene uses");
     features->add_option("VARIANT", variant, "alone, types, features or all")->required();
@@ -43,11 +41,6 @@ int main(int argc, char** argv) {
     standard->add_option("--folder", folder, "Where references are kept")->required();
     standard->add_option("--reference-spp", reference_spp)->capture_default_str();
     standard->callback([&] { result = measure_standard(o, scene, folder, reference_spp); });
-    auto* error = program.add_subcommand("error", "Error against samples and time");
-    error->add_option("SCENE", scene)->required();
-    error->add_option("HALF1", half1)->required();
-    error->add_option("HALF2", half2)->required();
-    error->callback([&] { result = measure_error(o, scene, half1, half2); });
     CLI11_PARSE(program, argc, argv);
     std::printf("%s\n", result.dump().c_str());
     return 0;

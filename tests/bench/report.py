@@ -2,8 +2,7 @@
 """bench.json as a page: docs/bench/README.md, with charts beside it."""
 import statistics
 
-import charts
-import fit
+import needs as needs_script
 
 
 def spread(values, form="{:.2f}"):
@@ -95,6 +94,11 @@ def features(f):
                    "first sample, cold, CPU-s", "warm, CPU-s"], rows))
 
 
+def needs(f):
+    return ("## No more than a scene needs\n\nEach scene as usual / with shaders that keep all features which scenes can have (textures, bump, environment, lens, "
+            "media, quadrics, lamps of each kind ...), in turns, 64x64, 64 samples. By needs.py, which says what the columns are.\n\n" + needs_script.table(f) + "\n")
+
+
 def multiscatter(f):
     rows = []
     for name, v in f.items():
@@ -143,44 +147,25 @@ def standard(f):
             table(["renderer", "cornell: M samples / CPU-s", "relMSE x CPU-s", "room: M samples / CPU-s", "relMSE x CPU-s"], PEERS))
 
 
-def error(f):
-    rows = []
-    for name, scene in f.items():
-        trimmed = fit.curves(scene, "trimmed")
-        for config, points in fit.curves(scene, "rel_mse").items():
-            at = next((i for i, p in enumerate(points) if p["samples"] == 16), -1)
-            row = [name, config, points[-1]["samples"], points[at]["samples"], f"{points[at]['cpu']:.1f}"]
-            for curve, noise in ((points, "reference_noise"), (trimmed[config], "reference_noise_trimmed")):
-                exponent, floor = fit.power_law(curve)
-                row += [f"{curve[at]['error']:.4f}", f"{curve[at]['error'] * curve[at]['cpu']:.3f}", f"{exponent:.2f}",
-                        f"{floor:.1e} ({scene[noise]:.1e})"]
-            rows.append(row)
-    notes = "".join(f"\n{name} is not denoised: {scene['not_denoised']}\n" for name, scene in f.items() if "not_denoised" in scene)
-    return ("## Error against samples and time\n\nrelMSE to pbrt-v4's pictures (mean of the two halves), brightest 0.1 % clipped alike, "
-            "median of the seeds (band: all of them). *Trimmed* leaves out the thousandth of the pixels that differ most: a single pixel "
-            "can decide the mean of all. In veach-mis one does from 64 samples on: the edge of its brightest light, seen by one sample "
-            "of ours in 128 and by none of the reference's (30, 89). Nothing is subtracted: curves end on a floor made of the reference's own "
-            "noise (in brackets) and of systematic differences (pbrt is spectral, we are RGB). The fit is error = a N^-p + floor; Monte Carlo has "
-            "p = 1, stratified samples more where the picture is smooth; a denoised picture less, for its bias.\n\n![error against samples](error_samples.svg)\n\n"
-            "![error against CPU time](error_time.svg)\n\n" +
-            table(["scene", "strategy", "curve to", "samples", "CPU-s", "relMSE", "x CPU-s", "p", "fitted floor (noise)",
-                   "trimmed", "x CPU-s", "p", "fitted floor (noise)"], rows) + notes)
-
-
 HOW = ("`restage bench SCENE... -o FOLDER` charts error against samples and CPU time: `index.html` needs no other file, `bench.json` has all figures. Rows of "
        "a file (`--rows`; the default is python/restage/bench/rows.txt) are configurations, NAME: OPTIONS of `restage render`. `--mitsuba PYTHON`, `--cycles "
        "PYTHON` (with the packages mitsuba or bpy) and `--pbrt BINARY` measure these renderers in the same run, on the same scene through our exporters. "
        "Same size and box filter for all; each renderer is measured against its own reference, whose noise is taken off, and the difference of "
        "the references is given; bands are ranges over at least 5 seeds. `--growth --budget SECONDS`: rays a second and memory against triangles, "
-       "instances, lights, resolution and depth. `tools/bench --only chart` measures the bundled scenes (`--mitsuba` and so on are passed on).\n\n")
+       "instances, lights, resolution and depth. `tools/bench --only chart` measures the bundled scenes, and those of RESTAGE_SCENES without pictures (`--mitsuba` and so on are passed on).\n\n")
 
 
 def chart(f):
     scenes = "".join(f"![{name}: relMSE against CPU seconds](chart/{name}-rel_mse-cpu.svg)\n\n" for name in f["scenes"])
-    rows = [[name, c["name"], points[-1]["samples"], f"{points[-1]['cpu']:.2f}", f"{points[-1]['error']:.2e}", f"{points[-1]['error'] * points[-1]['cpu']:.2e}"]
-            for name, scene in f["scenes"].items() for c in scene["configurations"] for points in [c["curve"]]]
-    return ("## Configurations and other renderers\n\n" + HOW + "The page: [chart/index.html](chart/index.html).\n\n" + scenes +
-            table(["scene", "", "samples", "CPU-s", "relMSE", "x CPU-s"], rows))
+    rows = []
+    for name, scene in f["scenes"].items():
+        for c in scene["configurations"]:
+            last, trimmed = c["curve"][-1], c["curve_trimmed"][-1]
+            rows.append([f"{name}, {scene['width']}x{scene['height']}, {scene['seeds']} seeds", c["name"], last["samples"], f"{last['cpu']:.2f}", f"{last['error']:.2e} ({last['low']:.1e}–{last['high']:.1e})",
+                         f"{trimmed['error']:.2e}", f"{trimmed['error'] * last['cpu']:.2e}"])
+    return ("## Configurations and other renderers\n\n" + HOW + "The page: [chart/index.html](chart/index.html). "
+            "*Trimmed* leaves out the thousandth of the pixels that differ most.\n\n" + scenes +
+            table(["scene", "", "samples", "CPU-s", "relMSE", "trimmed", "trimmed x CPU-s"], rows))
 
 
 def editor(f):
@@ -194,7 +179,7 @@ def editor(f):
             f"Frames of the window while it renders: median {ui['median']:.0f} ms, 99 % {ui['p99']:.0f} ms (target 50 ms).\n")
 
 
-SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "error": error, "chart": chart, "editor": editor}
+SECTIONS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "needs": needs, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor}
 
 
 def machine_line(m):
@@ -203,8 +188,9 @@ def machine_line(m):
 
 def measured_line(row, several_machines):
     """When a row was measured, of which commit, and how busy the machine was."""
-    line = (f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}; others used "
-            f"{100 * row['others_cpu']:.0f} % of the cores meanwhile")
+    line = f"Measured {row['date']} at commit {row['commit']}; load average before it {row['load_before']:.1f}"
+    if row["others_cpu"] is not None:
+        line += f"; others used {100 * row['others_cpu']:.0f} % of the cores meanwhile"
     if several_machines:
         line += f"; on {machine_line(row['machine'])}"
     return line + ("; a quick run, not the full measurement.\n" if row["quick"] else ".\n")
@@ -219,9 +205,7 @@ def write(data, folder):
     for name, section in SECTIONS.items():
         row = data["rows"].get(name)
         if row is None:
-            text.append(f"## {name.replace('_', ' ')}\n\n{HOW if name == 'chart' else ''}Not measured in this file: `make bench` measures it (error and first image need RESTAGE_SCENES and RESTAGE_REFERENCES).\n")
+            text.append(f"## {name.replace('_', ' ')}\n\n{HOW if name == 'chart' else ''}Not measured in this file: `make bench` measures it (first image and editor need RESTAGE_SCENES).\n")
             continue
         text.append(section(row["figures"]) + "\n" + measured_line(row, len(machines) > 1))
-    if "error" in data["rows"]:
-        charts.error_charts(data["rows"]["error"]["figures"], folder)
     (folder / "README.md").write_text("\n".join(text))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures Restage and writes docs/bench: bench.json (all figures), README.md (a table) and charts as SVG.
 
-Scenes come from RESTAGE_SCENES and references from RESTAGE_REFERENCES; rows that need them are left out without.
+Scenes come from RESTAGE_SCENES; rows that need them are left out without.
 Every figure is the median of its runs; ratios are of runs in one process. CPU time counts all threads.
 """
 import argparse
@@ -10,6 +10,7 @@ import datetime
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,10 +18,11 @@ import time
 
 import editor
 import machine
+import needs
 import report
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENES = ["kitchen", "living-room", "veach-mis"]
+SCENES = ["kitchen", "veach-mis"]
 
 
 class Bench:
@@ -29,7 +31,7 @@ class Bench:
     def __init__(self, args):
         self.restage = args.restage
         self.program = args.restage.parent / "restage_bench"
-        self.options = (["--quick"] if args.quick else []) + ["--samples", str(args.samples)]
+        self.options = ["--quick"] if args.quick else []
         self.quick, self.runs, self.out = args.quick, args.runs, args.out
         self.peers = [word for name in ("mitsuba", "cycles", "pbrt") if getattr(args, name) for word in (f"--{name}", getattr(args, name))]
         # References are valid for one commit only; a modified checkout recomputes its own each time.
@@ -75,13 +77,23 @@ def features(bench):
     rows = {}
     for variant in ("alone", "types", "features", "all"):
         with tempfile.TemporaryDirectory() as cache:
-            env = {"RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            env = {"XDG_CACHE_HOME": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
             cold = bench.measure("features", variant, runs=0, env=env)
             code = sum(f.stat().st_size for f in pathlib.Path(cache, "mesa").rglob("*") if f.is_file() and f.name != "index")
             warm = bench.measure("features", variant, env=env)
         rows[variant] = {**warm, "machine_code_cache_bytes": code, "first_sample_wall_cold": cold["first_sample_wall"],
                          "first_sample_cpu_cold": cold["first_sample_cpu"]}
     return rows
+
+
+def needs_of_scenes(bench):
+    """Of the bundled scenes and all of RESTAGE_SCENES."""
+    needs.PROGRAM = bench.restage
+    files = [ROOT / f"scenes/{name}/{name}.pbrt" for name in ("cornell", "spheres", "demo")]
+    others = folder_of("RESTAGE_SCENES")
+    if others:
+        files += sorted(others.glob("*/scene.pbrt"))
+    return {needs.name_of(f): needs.measure(f, "64x64", 64, bench.runs) for f in (files[:1] if bench.quick else files)}
 
 
 def multiscatter(bench):
@@ -96,7 +108,7 @@ def first_image(bench):
     scene = scenes / "kitchen/scene.pbrt"
     with tempfile.TemporaryDirectory() as folder:
         def once(cache):
-            env = {**os.environ, "RESTAGE_CACHE_DIR": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
+            env = {**os.environ, "XDG_CACHE_HOME": cache, "MESA_SHADER_CACHE_DIR": f"{cache}/mesa"}
             before, start = os.times(), time.monotonic()
             subprocess.run([str(bench.restage), "-q", "render", str(scene), "-o", f"{folder}/image.exr", "--spp", "1", "--size",
                             "640x360", "--tracer", "embree"], check=True, env=env, stdout=subprocess.DEVNULL)
@@ -105,7 +117,7 @@ def first_image(bench):
 
         cold = [once(f"{folder}/cold{i}") for i in range(1 if bench.quick else bench.runs)]
         warm = [once(f"{folder}/cold0") for _ in range(bench.runs)]
-        env = {"RESTAGE_CACHE_DIR": f"{folder}/cold0", "MESA_SHADER_CACHE_DIR": f"{folder}/cold0/mesa"}
+        env = {"XDG_CACHE_HOME": f"{folder}/cold0", "MESA_SHADER_CACHE_DIR": f"{folder}/cold0/mesa"}
         return {"target_seconds": 5, "cold": cold, "warm": warm, "stages_warm": bench.measure("first-image", scene, env=env)}
 
 
@@ -114,21 +126,24 @@ def standard(bench):
     return {name: bench.measure("standard", name, "--folder", bench.references, "--reference-spp", spp[name]) for name in spp}
 
 
-def error(bench):
-    scenes, references = folder_of("RESTAGE_SCENES"), folder_of("RESTAGE_REFERENCES")
-    if not scenes or not references:
-        return None
-    return {name: bench.measure("error", scenes / name / "scene.pbrt", references / f"{name}.1.exr", references / f"{name}.2.exr")
-            for name in (SCENES[-1:] if bench.quick else SCENES)}
-
-
 def chart(bench):
-    """`restage bench` of the bundled scenes, with Mitsuba and pbrt-v4 where given; its page is written to the folder `chart`."""
-    small = ["--size", "64x64", "--samples", "4", "16", "--seeds", "2", "--budget", "20"] if bench.quick else ["--budget", "600"]
-    env = {**os.environ, "RESTAGE_PYTHON": sys.executable}
-    subprocess.run([str(bench.restage), "bench", "cornell", "demo", *small, "--growth", "-o", str(bench.out / "chart"), *bench.peers], check=True,
-                   env=env, stdout=subprocess.DEVNULL)
-    return json.loads((bench.out / "chart/bench.json").read_text())
+    """`restage bench` of the bundled scenes, with Mitsuba and so on where given; its page is written to the folder `chart`. Of the scenes of
+    RESTAGE_SCENES only figures and charts are: their pictures are not ours to give."""
+    small = ["--size", "64x64", "--samples", "4", "16", "--seeds", "2"] if bench.quick else ["--size", "96x96"]
+    env, out = {**os.environ, "RESTAGE_PYTHON": sys.executable}, bench.out / "chart"
+
+    def measure(folder, *arguments):
+        subprocess.run([str(bench.restage), "bench", *arguments, *small, "-o", str(folder), *bench.peers], check=True, env=env, stdout=subprocess.DEVNULL)
+        return json.loads((folder / "bench.json").read_text())
+
+    figures = measure(out, "cornell", "demo", "--growth", "--budget", "20" if bench.quick else "60")
+    others = folder_of("RESTAGE_SCENES")
+    if others:
+        with tempfile.TemporaryDirectory() as folder:
+            figures["scenes"] |= measure(pathlib.Path(folder), *(str(others / name / "scene.pbrt") for name in SCENES))["scenes"]
+            for name in SCENES:
+                shutil.copy(pathlib.Path(folder, f"{name}-rel_mse-cpu.svg"), out)
+    return figures
 
 
 def editor_latency(bench):
@@ -136,7 +151,7 @@ def editor_latency(bench):
     return editor.measure(bench.restage, scenes / "kitchen/scene.pbrt", (0.73, 0.72)) if scenes else None
 
 
-ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "multiscatter": multiscatter, "first_image": first_image, "error": error, "standard": standard, "chart": chart, "editor": editor_latency}
+ROWS = {"rays": rays, "edits": edits, "copies": copies, "actions": actions, "features": features, "needs": needs_of_scenes, "multiscatter": multiscatter, "first_image": first_image, "standard": standard, "chart": chart, "editor": editor_latency}
 
 
 def main():
@@ -145,7 +160,6 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, help="default docs/bench; with --quick build/bench-quick")
     parser.add_argument("--only", nargs="+", choices=ROWS, help="measure these rows again, keep the others of bench.json")
     parser.add_argument("--runs", type=int, help="of each figure (default 3; 1 with --quick)")
-    parser.add_argument("--samples", type=int, default=256, help="a pixel, where the error curves end (default 256)")
     parser.add_argument("--quick", action="store_true", help="a quick run of two minutes: fewer runs, samples and scenes")
     parser.add_argument("--mitsuba", metavar="PYTHON", help="Python that has mitsuba, for the row chart")
     parser.add_argument("--cycles", metavar="PYTHON", help="Python that has bpy (Cycles), likewise")
@@ -166,7 +180,7 @@ def main():
             with machine.Watch() as watch:
                 figures = ROWS[name](bench)
             if figures is None:
-                print(f"{name}: left out, RESTAGE_SCENES or RESTAGE_REFERENCES is not set", flush=True)
+                print(f"{name}: left out, RESTAGE_SCENES is not set", flush=True)
                 data["rows"].pop(name, None)
                 continue
             data["rows"][name] = {"date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),

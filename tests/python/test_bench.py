@@ -158,7 +158,7 @@ def test_a_tiny_measurement(program, tmp_path):
     text = (tmp_path / "page/index.html").read_text()
     parsed = Page(text)
     assert not parsed.open and json.loads(parsed.data) == data and parsed.selects == 2
-    assert len(parsed.urls) == 6 and all(u.startswith("data:image/png;base64,") for u in parsed.urls)
+    assert len(parsed.urls) == 3 and all(u.startswith("data:image/png;base64,") for u in parsed.urls)
     assert "url(" not in text and "@import" not in text and text.count("http") == text.count('xmlns="http://www.w3.org/2000/svg"')
     assert {p.name for p in (tmp_path / "page").glob("*.svg")} >= {"cornell-rel_mse-cpu.svg", "cornell-trimmed-samples.svg", "growth-depth-memory.svg"}
 

@@ -73,8 +73,7 @@ TEST_CASE("a closed box is black inside, for any light outside") {
         double scale;
         glm::dvec3 move;
         float reach = 1; // walls extend this many times beyond the room
-        int allowed =
-            0; // pixels with light, of 1024, where floats cannot resolve on which side of the next wall a point is
+        int allowed = 0; // pixels of 1024 with light, by the vulkan tracer, whose hits are those of its driver
         int fan = 0; // each wall a fan of so many grazing triangles about a point near its border
     };
     for (const Case& c : {Case{"plain", 1, {0, 0, 0}},
@@ -82,8 +81,8 @@ TEST_CASE("a closed box is black inside, for any light outside") {
                           {"scaled by 1e5", 1e5, {0, 0, 0}},
                           {"moved by 1e5", 1, {1e5, 1e5, -1e5}},
                           {"walls of 100", 1, {0, 0, 0}, 100},
-                          {"walls of 1000", 1, {0, 0, 0}, 1000, 10},
-                          {"walls of 1e4", 1, {0, 0, 0}, 1e4f, 100},
+                          {"walls of 1000", 1, {0, 0, 0}, 1000},
+                          {"walls of 1e4", 1, {0, 0, 0}, 1e4f, 40},
                           {"slivers", 1, {0, 0, 0}, 1, 0, 200}}) {
         if (tracer == "vulkan" && (c.reach == 100 || c.reach == 1000))
             continue; // its pipelines take seconds per scene on a CPU
@@ -131,7 +130,7 @@ TEST_CASE("a closed box is black inside, for any light outside") {
         const auto image = render_image(*renderer, b.scene, 64);
         const auto lit = std::ranges::count_if(image.color, [](const glm::vec3& v) { return v != glm::vec3(0); });
         INFO(tracer << ", " << c.name << ": " << lit << " of " << image.color.size() << " pixels lit");
-        CHECK(lit <= c.allowed);
+        CHECK(lit <= (tracer == "vulkan" ? c.allowed : 0));
         CHECK(renderer->stats().shadow_rays > 100000); // else nothing was tested
         renderer->reset_stats();
     }

@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """A million samples without drift; and what does not change a picture: threads, order and batches."""
+import pathlib
+import subprocess
+import sys
+
 import numpy as np
+import pytest
+from conftest import BIN
 from stage import diffuse, glass, lamp, rectangle_form, sky, square, within
 
 import restage
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scripts"))
+import exr_file  # noqa: E402
 
 MILLION = 1 << 20
 
@@ -53,3 +62,22 @@ def test_order_and_batches_change_only_rounding(stage):
                 session.crop = (x0 / width, x1 / width, y0 / height, y1 / height)
                 tiles[y0:y1, x0:x1] = session.render(samples=16, seed=5).color
         assert np.array_equal(tiles, whole.color)
+
+
+@pytest.mark.parametrize("options", [[], ["--caustics", "on"], ["--spectral"]], ids=" ".join)
+def test_a_resumed_rendering_is_the_uninterrupted_one(stage, tmp_path, options):
+    """Parts of 5 and 11 samples: neither maps of photons nor wavelengths may begin anew. A file holds means and errors, from which the sums follow to
+    a few roundings of floats."""
+    scene = stage.scene(BODY, **LOOK)
+
+    def render(name, *more):
+        subprocess.run([BIN, "--quiet", "render", scene, "-o", tmp_path / name, "--seed", "5", "--tracer", "embree", *options, *more], check=True)
+        return exr_file.read(tmp_path / name)
+
+    whole = render("whole.exr", "--spp", "16")
+    part = render("part.exr", "--spp", "5")
+    resumed = render("resumed.exr", "--spp", "16", "--resume", tmp_path / "part.exr")
+    assert not np.allclose(part["G"], whole["G"], rtol=1e-3)
+    for channel in "RGB":
+        assert np.allclose(resumed[channel], whole[channel], rtol=1e-6, atol=1e-7), channel
+    assert np.array_equal(resumed["id.instance"], whole["id.instance"])

@@ -18,7 +18,7 @@ table{border-collapse:collapse;margin:1em 0}th,td{padding:.25em .7em;text-align:
 .tools{margin:.4em 0}.tools input{width:min(90vw,640px);display:block}small{color:#6a737d}
 @media (prefers-color-scheme:dark){body{background:#0d1117;color:#e6edf3}small{color:#9da7b3}}"""
 SCRIPT = """for(const box of document.querySelectorAll('.pictures')){const images=box.querySelectorAll('.compare img'),lists=box.querySelectorAll('select'),
-slide=box.querySelector('input');const show=()=>{images.forEach((image,i)=>{image.src=lists[i].value});
+slide=box.querySelector('input');lists[1].innerHTML=lists[0].innerHTML;lists[1].selectedIndex=Math.min(1,lists[1].length-1);const show=()=>{images.forEach((image,i)=>{image.src=lists[i].value});
 images[1].style.clipPath='inset(0 0 0 '+slide.value+'%)'};lists.forEach(l=>l.onchange=show);slide.oninput=show;show()}"""
 
 
@@ -108,10 +108,8 @@ def write(data, pictures, folder):
         if images:
             bright = float(np.mean(next(iter(images.values()))))
             uris = {n: data_uri(p, 0.25 / max(bright, 1e-6)) for n, p in images.items()}
-            second = min(1, len(uris) - 1)
-            options = ["".join(f'<option value="{uri}"{" selected" if k == chosen else ""}>{html.escape(n)}</option>' for k, (n, uri) in enumerate(uris.items()))
-                       for chosen in (0, second)]
-            body.append(f'<div class="pictures"><div class="tools">left <select>{options[0]}</select> right <select>{options[1]}</select>'
+            options = "".join(f'<option value="{uri}">{html.escape(n)}</option>' for n, uri in uris.items())
+            body.append(f'<div class="pictures"><div class="tools">left <select>{options}</select> right <select></select>'
                         '<input type="range" min="0" max="100" value="50" aria-label="border between the pictures"></div>'
                         '<div class="compare"><img alt="left picture"><img class="over" alt="right picture"></div></div>')
     if data.get("growth"):
