@@ -4,6 +4,8 @@
 #ifndef RESTAGE_LIB_RECTANGLE
 #define RESTAGE_LIB_RECTANGLE
 #include <restage/v1/bsdf.glsl>
+#include "lib/bilinear.glsl"
+#include "lib/receiver.glsl"
 
 // Smaller ones look almost the same from everywhere on them: uniform over the area is as good, and more precise.
 const float RECTANGLE_LEAST = 1e-2;
@@ -37,6 +39,15 @@ RectangleView rectangle_view(vec3 corner, vec3 b, vec3 c, vec3 p) {
     return v;
 }
 
+// What its corners contribute to a surface there: at (x0, y0), (x1, y0), (x0, y1), (x1, y1).
+vec4 rectangle_corners(RectangleView v, vec3 corner, vec3 b, vec3 c, Receiver to) {
+    // n . q = q.x n.x + q.y n.y + k for all points q of the rectangle, relative to the point
+    vec2 n = vec2(dot(to.n, b) / (v.x1 - v.x0), dot(to.n, c) / (v.y1 - v.y0));
+    float k = dot(to.n, corner - to.p) - dot(n, vec2(v.x0, v.y0));
+    vec4 x = vec4(v.x0, v.x1, v.x0, v.x1), y = vec4(v.y0, v.y0, v.y1, v.y1);
+    return received((x * n.x + y * n.y + k) * inversesqrt(x * x + y * y + v.z0 * v.z0));
+}
+
 // The place along both edges, within [0, 1], for solid_angle > 0.
 vec2 rectangle_sample(RectangleView v, vec2 u) {
     float z2 = v.z0 * v.z0;
@@ -59,6 +70,17 @@ vec2 rectangle_sample(RectangleView v, vec2 u) {
     float h = mix(h0, h1, u.y);
     float y = clamp(h * sqrt(d2 / max(1.0 - h * h, 1e-12)), v.y0, v.y1);
     return vec2((x - v.x0) / (v.x1 - v.x0), (y - v.y0) / (v.y1 - v.y0));
+}
+
+// Its inverse: the numbers that lead to this place.
+vec2 rectangle_invert(RectangleView v, vec2 place) {
+    float x = mix(v.x0, v.x1, place.x), y = mix(v.y0, v.y1, place.y);
+    vec3 v00 = vec3(v.x0, v.y0, v.z0), v10 = vec3(x, v.y0, v.z0), v01 = vec3(v.x0, v.y1, v.z0), v11 = vec3(x, v.y1, v.z0);
+    float volume = -v.z0 * (x - v.x0) * (v.y1 - v.y0);
+    float part = rectangle_angle(v00, v10, v11, volume) + rectangle_angle(v00, v11, v01, volume);
+    float d2 = x * x + v.z0 * v.z0;
+    float h0 = v.y0 * inversesqrt(d2 + v.y0 * v.y0), h1 = v.y1 * inversesqrt(d2 + v.y1 * v.y1);
+    return clamp(vec2(part / v.solid_angle, (y * inversesqrt(d2 + y * y) - h0) / (h1 - h0)), 0.0, 1.0);
 }
 
 #endif
