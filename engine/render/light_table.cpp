@@ -4,7 +4,6 @@
 #include "render/cdf_table.hpp"
 #include "render/light_tree.hpp"
 #include "scene/quadric.hpp"
-#include "shared/light_kinds.h"
 #include "shared/normal.h"
 
 #include <array>
@@ -366,7 +365,9 @@ std::optional<Replaced> replace_emitter(LightTable& table, const scene::Scene& s
     const auto made = add_emitter(alone, scene, origin, id, emits);
     std::uint32_t at = table.lights[first].node;
     shared::LightNode& leaf = table.nodes[at];
-    if (!made || (alone.kinds & ~table.kinds) || made->lights != leaf.lights || ((made->flags ^ leaf.flags) & LIGHT_PIECES)) return std::nullopt;
+    if (!made || (alone.kinds & ~table.kinds) || made->lights != leaf.lights ||
+        ((made->flags ^ leaf.flags) & LIGHT_PIECES))
+        return std::nullopt;
     Replaced out{.first = first, .count = leaf.lights, .nodes = {}};
     for (std::uint32_t i = 0; i < out.count; ++i) {
         alone.lights[i].node = at;

@@ -5,8 +5,7 @@
 
 // Density proportional to the line from a at 0 to b at 1.
 float sample_linear(float u, float a, float b) {
-    if (u <= 0.0 || a + b <= 0.0) return max(u, 0.0);
-    return min(u * (a + b) / (a + sqrt(mix(a * a, b * b, u))), 1.0);
+    return min(u * (a + b) / max(a + sqrt(mix(a * a, b * b, u)), 1e-37), 1.0);
 }
 
 // Density proportional to the bilinear function with these values at (0, 0), (1, 0), (0, 1) and (1, 1).

@@ -51,14 +51,14 @@ float lamp_density(LightData light, Receiver to, vec3 q, float dist, float cos_l
     if (HAS_LAMP_RECTANGLES && (light.kind & LIGHT_RECTANGLE) != 0u) {
         RectangleView view = rectangle_view(light.a, light.b, light.c, to.p);
         if (view.solid_angle >= RECTANGLE_LEAST) {
-            vec4 corners = rectangle_corners(view, light.a, light.b, light.c, to);
+            vec4 corners = rectangle_corners(view, to.n);
             return bilinear_density(corners, rectangle_invert(view, place_on(light, q))) / view.solid_angle;
         }
     }
     if (HAS_LAMP_TRIANGLES && (light.kind & LIGHT_BY_ANGLE) != 0u) {
         TriangleView view = triangle_view(light.a, light.b, light.c, to.p);
         if (triangle_by_angle(view))
-            return bilinear_density(triangle_corners(view, to), triangle_invert(view, place_on(light, q))) / view.solid_angle;
+            return bilinear_density(triangle_corners(view, to.n), triangle_invert(view, place_on(light, q))) / view.solid_angle;
     }
     return triangle_density(light.area, dist, cos_light);
 }
@@ -114,7 +114,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
                 TriangleView view = triangle_view(light.a, light.b, light.c, p);
                 by_angle = triangle_by_angle(view);
                 if (by_angle) {
-                    vec4 corners = triangle_corners(view, to);
+                    vec4 corners = triangle_corners(view, to.n);
                     vec2 u = bilinear_sample(corners, vec2(x, y)), at = triangle_sample(view, u);
                     x = at.x;
                     y = at.y;
@@ -124,7 +124,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
             if (HAS_LAMP_RECTANGLES && (light.kind & LIGHT_RECTANGLE) != 0u) {
                 RectangleView view = rectangle_view(light.a, light.b, light.c, p);
                 if (view.solid_angle >= RECTANGLE_LEAST) {
-                    vec4 corners = rectangle_corners(view, light.a, light.b, light.c, to);
+                    vec4 corners = rectangle_corners(view, to.n);
                     vec2 u = bilinear_sample(corners, vec2(x, y)), at = rectangle_sample(view, u);
                     x = at.x;
                     y = at.y;

@@ -13,8 +13,8 @@ struct Receiver {
 uint receiver_bits(vec3 n) { return packSnorm4x8(vec4(n, 0.0)); }
 Receiver receiver_at(vec3 p, uint bits) { return Receiver(p, unpackSnorm4x8(bits).xyz); }
 
-// Weights of directions with these cosines to its normal. It may receive from both sides, and its material may use other
-// normals.
-vec4 received(vec4 cosines) { return max(abs(cosines), 0.01); }
+// Directions get weights of the cosine to its normal, or this. It may receive from both sides, and its material may use
+// other normals. pbrt 4ed, 6.5.4
+const float RECEIVED_LEAST = 0.01;
 
 #endif

@@ -3,7 +3,6 @@
 #ifndef RESTAGE_LIB_SCENE
 #define RESTAGE_LIB_SCENE
 #include "shared/scene_data.h"
-#include "shared/light_kinds.h"
 
 #define ARRAY_OF(NAME, TYPE)                                                                                           \
     layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NAME { TYPE at[]; }

@@ -35,10 +35,11 @@ TriangleView triangle_view(vec3 corner, vec3 b, vec3 c, vec3 p) {
 
 bool triangle_by_angle(TriangleView v) { return v.solid_angle >= TRIANGLE_LEAST && v.solid_angle <= TRIANGLE_MOST; }
 
-// What its corners contribute to a surface there: at (0, 0), (1, 0), (0, 1), (1, 1) of the numbers of triangle_sample.
-vec4 triangle_corners(TriangleView v, Receiver to) {
-    float middle = dot(to.n, v.v1);
-    return received(vec4(middle, middle, dot(to.n, v.v0), dot(to.n, v.v2)));
+// What light from its corners gives a surface with normal n there: at (0, 0), (1, 0), (0, 1), (1, 1) of the numbers of
+// triangle_sample.
+vec4 triangle_corners(TriangleView v, vec3 n) {
+    float apex = dot(n, v.v1);
+    return max(abs(vec4(apex, apex, dot(n, v.v0), dot(n, v.v2))), RECEIVED_LEAST);
 }
 
 float chord2(vec3 a, vec3 b) { return dot(a - b, a - b); } // 2 - 2 cos

@@ -8,7 +8,6 @@
 #include "render/light_tree.hpp"
 #include "render/scene_builder.hpp"
 #include "shared/lamps.h"
-#include "shared/light_kinds.h"
 
 #include <algorithm>
 #include <numbers>
