@@ -19,6 +19,9 @@ using scene::Id;
 using shared::LightData;
 constexpr double pi = std::numbers::pi;
 
+// Triangles are sampled by solid angle in emitters of up to so many. In others each is small.
+constexpr std::size_t most_by_angle = 8;
+
 double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 } // namespace
@@ -185,6 +188,11 @@ class EmitterBuilder {
         table_.cdf.insert(table_.cdf.end(), cdf.begin(), cdf.end());
         for (std::size_t i = 0; i < cdf.size(); ++i) {
             LightData& light = table_.lights[first_ + i];
+            if ((light.kind & 255) == LIGHT_TRIANGLE && !(light.kind & (LIGHT_PAIR | LIGHT_PAIR_END)) &&
+                cdf.size() <= most_by_angle)
+                light.kind |= LIGHT_BY_ANGLE;
+            table_.kinds |= (light.kind & LIGHT_RECTANGLE ? LIGHTS_RECTANGLES : 0) |
+                            (light.kind & LIGHT_BY_ANGLE ? LIGHTS_TRIANGLES : 0);
             light.pmf = float(cdf_probability(cdf, i));
             if (!(light.kind & LIGHT_PAIR_END)) continue;
             LightData& other = table_.lights[first_ + i - 1]; // one density over both
@@ -357,7 +365,9 @@ std::optional<Replaced> replace_emitter(LightTable& table, const scene::Scene& s
     const auto made = add_emitter(alone, scene, origin, id, emits);
     std::uint32_t at = table.lights[first].node;
     shared::LightNode& leaf = table.nodes[at];
-    if (!made || made->lights != leaf.lights || ((made->flags ^ leaf.flags) & LIGHT_PIECES)) return std::nullopt;
+    if (!made || (alone.kinds & ~table.kinds) || made->lights != leaf.lights ||
+        ((made->flags ^ leaf.flags) & LIGHT_PIECES))
+        return std::nullopt;
     Replaced out{.first = first, .count = leaf.lights, .nodes = {}};
     for (std::uint32_t i = 0; i < out.count; ++i) {
         alone.lights[i].node = at;

@@ -3,6 +3,7 @@
 #ifndef RESTAGE_LIB_ENVIRONMENT
 #define RESTAGE_LIB_ENVIRONMENT
 #include <restage/v1/sampling.glsl>
+#include "lib/bilinear.glsl"
 #include "lib/cdf.glsl"
 #include "lib/sampler.glsl"
 #include "lib/spectral.glsl"
@@ -17,12 +18,6 @@ struct LightSample {
     bool delta;    // point, spot, distant: cannot be hit, no MIS
     float unseen;  // fraction of the radiance that rays pass without a hit: only this sampling finds it, no MIS
 };
-
-// Density proportional to the line from a at 0 to b at 1. pbrt 4ed, A.5.1
-float sample_linear(float u, float a, float b) {
-    if (u <= 0.0 || a + b <= 0.0) return max(u, 0.0);
-    return min(u * (a + b) / (a + sqrt(mix(a * a, b * b, u))), 1.0);
-}
 
 vec2 environment_uv(EnvironmentData env, vec3 w) { // w in the environment's frame
     if (env.mapping == ENV_OCTAHEDRAL) return direction_to_octahedral(w);
@@ -92,11 +87,7 @@ LightSample environment_sample(EnvironmentData env, uvec2 bits) {
     upper = mix(upper.xx, upper.yy, vec2(low.x, high.x));
     lower = mix(lower.xx, lower.yy, vec2(low.x, high.x));
     vec2 u = vec2(cdf_left(column, bits.x), cdf_left(row, bits.y));
-    vec2 d;
-    d.y = sample_linear(u.y, upper.x + upper.y, lower.x + lower.y);
-    vec2 line = mix(upper, lower, d.y);
-    d.x = sample_linear(u.x, line.x, line.y);
-    d = mix(low, high, d);
+    vec2 d = mix(low, high, bilinear_sample(vec4(upper, lower), u));
     vec4 le = mix(mix(c00, c10, d.x), mix(c01, c11, d.x), d.y);
     vec2 uv = (vec2(cell) - 0.5 + d) / vec2(size);
     vec3 local;

@@ -14,6 +14,7 @@
 #include <restage/v1/sampling.glsl>
 #include "lib/scene.glsl"
 #include "lib/texture.glsl"
+#include "lib/triangle.glsl"
 #include "lib/words.glsl"
 #include "shared/lamps.h"
 
@@ -39,11 +40,25 @@ Spectrum emitted(SceneData scene, InstanceData inst, uint prim, vec2 bary) {
     return spectrum_from_rgb_unbounded(inst.emission * max(vec3(0), texture_data(scene, inst.emission_texture, at)));
 }
 
-// Density per solid angle at p of sampling this point of a lamp, chosen already. cos_light: at the point, above 0.
-float lamp_density(LightData light, vec3 p, float dist, float cos_light) {
-    if ((light.kind & LIGHT_RECTANGLE) != 0u) {
-        float angle = rectangle_view(light.a, light.b, light.c, p).solid_angle;
-        if (angle >= RECTANGLE_LEAST) return 1.0 / angle;
+// A point's place along both edges.
+vec2 place_on(LightData light, vec3 q) {
+    vec3 n = cross(light.b, light.c), d = q - light.a;
+    return clamp(vec2(dot(cross(d, light.c), n), dot(cross(light.b, d), n)) / dot(n, n), 0.0, 1.0);
+}
+
+// Density per solid angle of sampling the point q of a lamp, chosen already. cos_light: at the point, above 0.
+float lamp_density(LightData light, Receiver to, vec3 q, float dist, float cos_light) {
+    if (HAS_LAMP_RECTANGLES && (light.kind & LIGHT_RECTANGLE) != 0u) {
+        RectangleView view = rectangle_view(light.a, light.b, light.c, to.p);
+        if (view.solid_angle >= RECTANGLE_LEAST) {
+            vec4 corners = rectangle_corners(view, to.n);
+            return bilinear_density(corners, rectangle_invert(view, place_on(light, q))) / view.solid_angle;
+        }
+    }
+    if (HAS_LAMP_TRIANGLES && (light.kind & LIGHT_BY_ANGLE) != 0u) {
+        TriangleView view = triangle_view(light.a, light.b, light.c, to.p);
+        if (triangle_by_angle(view))
+            return bilinear_density(triangle_corners(view, to.n), triangle_invert(view, place_on(light, q))) / view.solid_angle;
     }
     return triangle_density(light.area, dist, cos_light);
 }
@@ -82,7 +97,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
         InstanceData lamp;
         QuadricData quadric;
         vec3 n = vec3(0); // of surfaces, on the emitting side
-        float angle = 0.0;
+        float density = 0.0; // per solid angle; 0: the area's
         if (HAS_QUADRICS && kind == LIGHT_QUADRIC) {
             lamp = InstanceArray(scene.instances).at[light.instance];
             quadric = quadric_of(lamp);
@@ -94,16 +109,29 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
             if ((lamp.flags & INSTANCE_FLIP_NORMAL) != 0u) n = -n;
             q = lamp.object_to_world * vec4(at, 1.0);
         } else {
-            if ((light.kind & LIGHT_RECTANGLE) != 0u) {
-                RectangleView view = rectangle_view(light.a, light.b, light.c, p);
-                if (view.solid_angle >= RECTANGLE_LEAST) {
-                    vec2 at = rectangle_sample(view, vec2(x, y));
+            bool by_angle = false;
+            if (HAS_LAMP_TRIANGLES && (light.kind & LIGHT_BY_ANGLE) != 0u) {
+                TriangleView view = triangle_view(light.a, light.b, light.c, p);
+                by_angle = triangle_by_angle(view);
+                if (by_angle) {
+                    vec4 corners = triangle_corners(view, to.n);
+                    vec2 u = bilinear_sample(corners, vec2(x, y)), at = triangle_sample(view, u);
                     x = at.x;
                     y = at.y;
-                    angle = view.solid_angle;
+                    density = bilinear_density(corners, u) / view.solid_angle;
                 }
-            } else if ((light.kind & (LIGHT_PAIR | LIGHT_PAIR_END)) != 0u) {
-                // uniform over the parallelogram
+            }
+            if (HAS_LAMP_RECTANGLES && (light.kind & LIGHT_RECTANGLE) != 0u) {
+                RectangleView view = rectangle_view(light.a, light.b, light.c, p);
+                if (view.solid_angle >= RECTANGLE_LEAST) {
+                    vec4 corners = rectangle_corners(view, to.n);
+                    vec2 u = bilinear_sample(corners, vec2(x, y)), at = rectangle_sample(view, u);
+                    x = at.x;
+                    y = at.y;
+                    density = bilinear_density(corners, u) / view.solid_angle;
+                }
+            } else if (by_angle || (light.kind & (LIGHT_PAIR | LIGHT_PAIR_END)) != 0u) {
+                // done, or uniform over the parallelogram
             } else if (y > x) { // uniform over the area; Heitz 2019's mapping has less distortion than the square root
                 x *= 0.5;
                 y -= x;
@@ -134,7 +162,7 @@ LightSample light_sample(SceneData scene, Receiver to, uint pick, uvec2 bits) {
             }
         }
         if (HAS_QUADRICS && kind == LIGHT_QUADRIC) s.pdf = quadric_density(lamp, quadric, p, q, c);
-        else if (angle > 0.0) s.pdf = 1.0 / angle;
+        else if (density > 0.0) s.pdf = density;
         else s.pdf = triangle_density(light.area, s.dist, c);
         s.pdf = c > 0.0 && d2 > 0.0 ? s.pdf * pmf : 0.0;
     }

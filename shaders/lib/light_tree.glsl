@@ -5,20 +5,9 @@
 #ifndef RESTAGE_LIB_LIGHT_TREE
 #define RESTAGE_LIB_LIGHT_TREE
 #include <restage/v1/numbers.glsl>
+#include "lib/receiver.glsl"
 #include "lib/sampler.glsl"
 #include "lib/scene.glsl"
-
-// A point that receives light. Eight bits a component are enough for its normal, but who asks for the probability of a
-// choice must use the same bits: they travel with the ray.
-struct Receiver {
-    vec3 p;
-    vec3 n; // about unit, of either side
-};
-// Path guiding, too, learns from it: there it is on the side that the path came from.
-uint receiver_bits(vec3 n) { return packSnorm4x8(vec4(n, 0.0)); }
-Receiver receiver_at(vec3 p, uint bits) {
-    return Receiver(p, LIGHT_ROOTS > 1u ? unpackSnorm4x8(bits).xyz : vec3(0));
-}
 
 // The part of what arrives from the side of a surface that its material may still use: hair does, and a bumpy one.
 const float RECEIVED_ASIDE = 0.2;

@@ -39,11 +39,13 @@ layout(constant_id = 11) const bool HAS_EMISSION_TEXTURES = false;
 layout(constant_id = 12) const bool HAS_LIGHT_ALPHA = false; // some lamp has alpha below 1
 layout(constant_id = 13) const bool HAS_GLOW = false;        // some lamp has no surface: INSTANCE_PASSES
 layout(constant_id = 15) const bool HAS_QUADRICS = false;
-layout(constant_id = 16) const uint LIGHT_KINDS = 7u;    // LIGHTS_*
+layout(constant_id = 16) const uint LIGHT_KINDS = 31u;   // LIGHTS_*
 layout(constant_id = 17) const uint LIGHT_ROOTS = 9u;    // children of the light tree's root: 0, 1, 2, 4, 8; 9 = a deeper tree
 const bool HAS_LAMP_SURFACES = (LIGHT_KINDS & LIGHTS_SURFACES) != 0u;
 const bool HAS_LAMPS = (LIGHT_KINDS & LIGHTS_LAMPS) != 0u;
 const bool HAS_LAMP_MESHES = (LIGHT_KINDS & LIGHTS_MESHES) != 0u;
+const bool HAS_LAMP_RECTANGLES = (LIGHT_KINDS & LIGHTS_RECTANGLES) != 0u;
+const bool HAS_LAMP_TRIANGLES = (LIGHT_KINDS & LIGHTS_TRIANGLES) != 0u;
 layout(constant_id = 18) const bool HAS_CURVES = false; // spectral mode: measured spectra, of the material or of lights
 layout(constant_id = 19) const bool HAS_CAUSTICS = false; // photon maps: path/photons.glsl
 layout(constant_id = 20) const bool HAS_GUIDING = false; // directions are chosen by path guiding, too

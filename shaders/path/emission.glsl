@@ -33,11 +33,12 @@ Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 ba
     float w = 1.0;
     if (LIGHT_ROOTS > 0u && (path.flags & PATH_SPECULAR) == 0u && STRATEGY != 2 && inst.light_base != NONE) {
         LightData light = load_light(scene.lights, inst.light_base + prim);
-        pdf_light = light.pmf * light_choice_pmf(scene, receiver_at(ray.origin, ray.receiver), light.node);
+        Receiver from = receiver_at(ray.origin, ray.receiver);
+        pdf_light = light.pmf * light_choice_pmf(scene, from, light.node);
         if (HAS_QUADRICS && (inst.flags & INSTANCE_QUADRIC) != 0u)
             pdf_light *= quadric_density(inst, quadric_of(inst), ray.origin, s.p, c);
         else
-            pdf_light *= lamp_density(light, ray.origin, t, c);
+            pdf_light *= lamp_density(light, from, s.p, t, c);
         w = STRATEGY == 1 ? 0.0 : mis_weight(path.pdf, pdf_light);
     }
     return clamp_contribution(scene, path.throughput * emitted(scene, inst, prim, bary) * w, depth);

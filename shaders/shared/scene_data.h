@@ -43,11 +43,14 @@ RESTAGE_UINT(LIGHT_PAIR, 1024u); // with the next one a parallelogram: b and c o
 RESTAGE_UINT(LIGHT_PAIR_END, 2048u); // with the one before
 RESTAGE_UINT(LIGHT_SWAPPED, 512u); // b = p2-p0, c = p1-p0, so that their cross product is the emitting side
 RESTAGE_UINT(LIGHT_RECTANGLE, 4096u); // of a pair: its edges are at right angles
+RESTAGE_UINT(LIGHT_BY_ANGLE, 16384u); // a triangle that is sampled by solid angle
 RESTAGE_UINT(LIGHT_PIECES, 8192u); // of a LightNode: an emitter of more than a triangle or a pair
 // Kinds of lights in a scene
 RESTAGE_UINT(LIGHTS_SURFACES, 1u); // triangles, quadrics
 RESTAGE_UINT(LIGHTS_LAMPS, 2u); // LIGHT_LAMP and on
 RESTAGE_UINT(LIGHTS_MESHES, 4u); // emitters of LIGHT_PIECES
+RESTAGE_UINT(LIGHTS_RECTANGLES, 8u); // LIGHT_RECTANGLE
+RESTAGE_UINT(LIGHTS_TRIANGLES, 16u); // LIGHT_BY_ANGLE
 RESTAGE_UINT(CDF_TOTAL, 0xffffffffu);
 RESTAGE_UINT(ENV_CONSTANT, 0u);
 RESTAGE_UINT(ENV_EQUIRECT, 1u);

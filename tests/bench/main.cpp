@@ -36,8 +36,8 @@ int main(int argc, char** argv) {
     auto* first = program.add_subcommand("first-image", "Breakdown of the time to a file's first picture");
     first->add_option("SCENE", scene)->required();
     first->callback([&] { result = measure_first_image(scene); });
-    auto* standard = program.add_subcommand("standard", "Samples per second and error of cornell or room");
-    standard->add_option("NAME", scene)->required();
+    auto* standard = program.add_subcommand("standard", "Samples per second and error of cornell, room or room-flat");
+    standard->add_option("NAME", scene)->required()->check(CLI::IsMember({"cornell", "room", "room-flat"}));
     standard->add_option("--folder", folder, "Where references are kept")->required();
     standard->add_option("--reference-spp", reference_spp)->capture_default_str();
     standard->callback([&] { result = measure_standard(o, scene, folder, reference_spp); });

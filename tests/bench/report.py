@@ -126,7 +126,7 @@ PEERS = [("Mitsuba 3.9.1, llvm_ad_rgb, independent sampler", "1.25", "0.051", "0
          ("pbrt-v4, independent sampler", "0.18", "0.65-0.85", "0.045", "15-16"),
          ("LuxCore 2.11.2", "0.13", "", "0.077", "")]
 PEERS_TEXT = """
-The same two scenes by other renderers, for orientation. These were **not measured in this run**: once, at another time, on a machine of
+cornell and room by other renderers, for orientation. These were **not measured in this run**: once, at another time, on a machine of
 the same kind (2 shared cores, AVX-512), medians of 3-4 runs that differ by +-30 % among themselves; their error is to a reference of
 their own. Read a factor of two as a difference, not 20 %. relMSE is defined alike. pbrt-v4 is spectral and does more for a sample.
 
@@ -140,7 +140,7 @@ def standard(f):
         rows.append([name, spread(column(r, "msamples_cpu")), spread(column(r, "mrays_cpu")), spread(column(r, "rel_mse"), "{:.4f}"),
                      spread(column(r, "rel_mse_cpu_seconds"), "{:.3f}"), v["reference_samples"], f"{v['reference_noise']:.1e}"])
     return ("## Standard scenes\n\n512x512 at 16 samples a pixel, box filter; cornell (diffuse, 32 triangles) with 6 path edges, room (20 "
-            "instances of 199,692 triangles; diffuse, GGX conductor, glass) with 8. relMSE: the squared error of a pixel (mean over channels) "
+            "instances of 199,692 triangles; diffuse, GGX conductor, glass) with 8, room-flat the same with each of them a mesh of its own. relMSE: the squared error of a pixel (mean over channels) "
             "over the mean square of its reference + 0.01; the reference is a picture of our own in two halves, whose noise is known and "
             "subtracted.\n\n" +
             table(["scene", "M samples / CPU-s", "M rays / CPU-s", "relMSE", "relMSE x CPU-s", "reference spp", "its noise"], rows) + PEERS_TEXT +

@@ -122,7 +122,7 @@ def first_image(bench):
 
 
 def standard(bench):
-    spp = {"cornell": 64, "room": 32} if bench.quick else {"cornell": 256, "room": 128}
+    spp = {"cornell": 64, "room": 32, "room-flat": 32} if bench.quick else {"cornell": 256, "room": 128, "room-flat": 128}
     return {name: bench.measure("standard", name, "--folder", bench.references, "--reference-spp", spp[name]) for name in spp}
 
 

@@ -32,6 +32,13 @@ class Builder : public SceneBuilder {
     }
     // Corner p, edges u and v; the normal is u x v.
     Id<Mesh> rectangle(vec3 p, vec3 u, vec3 v) { return quad(p, p + u, p + u + v, p + v); }
+    // A copy whose vertices are transformed.
+    Id<Mesh> moved(Id<Mesh> of, const dmat4& transform) {
+        MeshData m = *scene.meshes[of].data;
+        for (vec3& p : m.positions)
+            p = dvec3(transform * glm::dvec4(p, 1));
+        return mesh(std::move(m), "sphere");
+    }
     // A cube's six faces, cells x cells squares each, pushed onto the unit sphere and displaced. No normals, no uvs.
     Id<Mesh> displaced_sphere(std::uint32_t cells, bool displace) {
         MeshData m;
@@ -87,7 +94,7 @@ ParamSet metal(float eta, float k, float alpha) {
 
 } // namespace
 
-Scene room(std::uint32_t bounces) {
+Scene room(std::uint32_t bounces, bool flat) {
     Builder b(512, bounces);
     b.look({-1.2, 2.9, 3.8}, {0.3, 0.6, -1}, 62);
     const auto white = b.diffuse(.75f, .75f, .75f), black = b.diffuse(0, 0, 0);
@@ -110,8 +117,11 @@ Scene room(std::uint32_t bounces) {
         for (int j = 0; j < 4; ++j) {
             const int k = i * 4 + j;
             const double size = .52 + .05 * ((k * 7) % 5);
-            b.instance(sphere, look[(i + j) % 4],
-                       place({-3.4 + 1.7 * i, size * 1.05, -2.9 + 1.55 * j}, dvec3(size), k * 1.3));
+            const dmat4 at = place({-3.4 + 1.7 * i, size * 1.05, -2.9 + 1.55 * j}, dvec3(size), k * 1.3);
+            if (flat)
+                b.instance(b.moved(sphere, at), look[(i + j) % 4]);
+            else
+                b.instance(sphere, look[(i + j) % 4], at);
         }
     return std::move(b.scene);
 }

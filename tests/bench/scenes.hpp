@@ -10,8 +10,9 @@
 namespace restage::bench {
 
 // A closed room of 10 x 4 x 8 with two area lights and 20 instances of one displaced sphere of 199,692 triangles:
-// diffuse, GGX conductor (alpha 0.2) and smooth glass. 512x512.
-scene::Scene room(std::uint32_t bounces);
+// diffuse, GGX conductor (alpha 0.2) and smooth glass. 512x512. flat: without instances, each sphere a mesh of its own
+// in world space, 4 million triangles in all.
+scene::Scene room(std::uint32_t bounces, bool flat = false);
 
 // Cornell box, diffuse only, 8 instances, 32 triangles. 512x512, 5 bounces.
 scene::Scene cornell();

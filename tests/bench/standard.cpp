@@ -31,7 +31,7 @@ double rel_mse(const scene::PixelData& a, const scene::PixelData& reference) {
 
 Json measure_standard(const Options& o, const std::string& name, const std::string& folder,
                       std::uint32_t reference_spp) {
-    const auto scene = name == "room" ? room(7) : cornell(); // 8 and 6 path edges
+    const auto scene = name == "cornell" ? cornell() : room(7, name == "room-flat"); // 6 and 8 path edges
     Plugins plugins;
     scene::PixelData halves[2];
     for (std::uint32_t i = 0; i < 2; ++i) {

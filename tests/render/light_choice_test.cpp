@@ -173,7 +173,7 @@ TEST_CASE("light table: an entry per triangle, an emitter per instance") {
     CHECK(std::abs(table.lights[1].area - 1) < 1e-6); // of both
     CHECK((table.nodes[0].flags & LIGHT_PIECES) == 0);
     CHECK((table.nodes[1].flags & LIGHT_PIECES) != 0);
-    CHECK(table.kinds == (LIGHTS_SURFACES | LIGHTS_LAMPS | LIGHTS_MESHES));
+    CHECK(table.kinds == (LIGHTS_SURFACES | LIGHTS_LAMPS | LIGHTS_MESHES | LIGHTS_RECTANGLES | LIGHTS_TRIANGLES));
 }
 
 TEST_CASE("a lamp of two triangles gets its points in the order of the unit square") {
