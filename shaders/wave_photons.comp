@@ -164,6 +164,9 @@ void main() {
     SceneData scene = wave_scene();
     PhotonMap map = PhotonMapRef(frame.photons).map;
     uint index = map.first_path + i;
+#ifdef RESTAGE_SPECTRAL
+    spectral_begin(scene, map.hero);
+#endif
     Start s = start_photon(scene, map, index);
     bool alive = finite(s.power) && positive(max_component(s.power));
     RayArray rays = RayArray(frame.rays);
@@ -174,5 +177,5 @@ void main() {
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     PathState path = PathState(Spectrum(1), 0.0, s.power, PATH_PHOTON | PATH_SPECULAR, 1.0, scene.camera_medium, map.seed, index);
     store_path(frame.paths, frame.fourths, i, path);
-    store_begin(frame.paths, frame.fourths, i, path);
+    store_begin(frame.paths, frame.fourths, i, path, map.hero);
 }

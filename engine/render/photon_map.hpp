@@ -28,13 +28,14 @@ class CausticPhotons {
     bool active() const { return !sources_.empty(); }
     std::uint64_t address() const { return record_.address(); } // of shared::PhotonMap, once started
 
-    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. So many photons are
-    // started that they cost little beside the paths, from the first sample on: pictures follow edits.
+    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. Two photons a sample:
+    // the noise of a map is common to all pixels that see the same photons, so that samples alone do not average it out.
     static std::uint32_t paths_per_map(std::uint32_t pixels);
     static std::uint32_t samples_per_map(std::uint32_t pixels);
     bool has(std::uint32_t map, std::uint32_t seed) const { return whole_ && map_ == map && seed_ == seed; }
-    // Empties the map; then waves of photons, collect() after each bounce, and finish().
-    Result<void> begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
+    // Empties the map; then waves of its `paths` photons, collect() after each bounce, and finish().
+    void begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
+    Result<void> next_wave(std::uint32_t first_path);
     void collect(std::span<const std::uint32_t> paths); // that were shaded
     Result<void> finish();
     bool knows_radius(std::uint32_t seed) const { return seed_ == seed && first_radius_ > 0; } // once map 0 was made
