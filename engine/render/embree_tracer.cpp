@@ -200,7 +200,7 @@ class EmbreeTracer final : public Tracer {
                                                  request.keep_going, [&] { caustics_.collect(active_); }));
             if (!done) return false;
         }
-        RESTAGE_CHECK(caustics_.finish());
+        RESTAGE_CHECK(caustics_.finish(scene, *embree_));
         return true;
     }
 

@@ -73,8 +73,8 @@ double brightness(const glm::vec3& c, bool spectral) {
 }
 
 // The number that chooses the wavelengths of a map: of any 4^n maps in a row the sets of four wavelengths are evenly
-// spread, and so is the one of the four that is left after dispersion. Points of the (0, 2)-sequence of Sobol 1967, by Kollig
-// and Keller 2002.
+// spread, and so is the one of the four that is left after dispersion. Points of the (0, 2)-sequence of Sobol 1967, by
+// Kollig and Keller 2002.
 float hero_of(std::uint32_t map, std::uint32_t seed) {
     std::uint32_t set = 0, first = 0;
     for (std::uint32_t i = map, a = 1u << 31, b = 1u << 31; i; i >>= 1, a >>= 1, b ^= b >> 1)
@@ -163,6 +163,7 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
         RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon), gpu::BufferKind::readback,
                                                      "photons of a wave"));
     }
+    is_caster_ = std::move(casters);
     head_.center = glm::vec3(world.empty() ? glm::dvec3(0) : world.center());
     head_.scene_radius = world.empty() ? 1.f : float(world.radius() * 1.001);
     head_.source_count = std::uint32_t(sources_.size());
@@ -268,10 +269,12 @@ float CausticPhotons::radius_of(std::uint32_t map) const {
     return float(std::sqrt(square));
 }
 
-Result<void> CausticPhotons::finish() {
+Result<void> CausticPhotons::finish(const GpuScene& scene, const EmbreeScene& embree) {
     if (map_ == 0 && !(first_radius_ > 0)) first_radius_ = nearby();
     shared::PhotonMap head = head_;
     head.radius = radius_of(map_);
+    const auto images = PhotonBorders{scene, embree, is_caster_}.images(photons_, head.radius, jobs_);
+    photons_.insert(photons_.end(), images.begin(), images.end());
     head.count = std::uint32_t(photons_.size());
     // By cells of two radii: a counting sort by the hash of the cell.
     const std::uint32_t buckets = std::bit_ceil(std::max(head.count, 64u));

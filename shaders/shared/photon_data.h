@@ -51,7 +51,8 @@ struct PhotonMap {
     uint seed, first_path; // of this wave of photons
     vec3 center; // of a sphere around the scene
     float scene_radius;
-    float hero; // spectral mode: chooses the wavelengths of photons and of the paths that gather them; < 0: each path its own
+    float hero; // spectral mode: chooses the wavelengths of photons and of the paths that gather them; < 0: each path
+                // its own
 };
 
 RESTAGE_INLINE uint photon_cell_hash(int x, int y, int z) {
