@@ -5,8 +5,8 @@
 #include "shared/hash.h"
 #include "shared/octahedral.h"
 
-#include <glm/packing.hpp>
 #include <cmath>
+#include <glm/packing.hpp>
 #include <numbers>
 #include <optional>
 

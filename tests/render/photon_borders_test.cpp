@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons near borders: where as many arrive everywhere, as many are found everywhere.
-#include "render/checks.hpp"
 #include "render/photon_borders.hpp"
+#include "render/checks.hpp"
 #include "shared/octahedral.h"
 
 #include <catch2/generators/catch_generators.hpp>
@@ -21,7 +21,8 @@ std::uint32_t packed(glm::dvec3 direction) {
     return glm::packSnorm2x16(glm::vec2(shared::direction_to_octahedral(direction) * 2.0 - 1.0));
 }
 
-// Photons from above onto the floor z = 0, as many per area everywhere within [-0.5, 0.5]^2 where `lit`; with their images.
+// Photons from above onto the floor z = 0, as many per area everywhere within [-0.5, 0.5]^2 where `lit`; with their
+// images.
 struct Floor {
     std::vector<shared::Photon> photons;
 
@@ -43,8 +44,7 @@ struct Floor {
         for (int i = 0; i < count; ++i) {
             const glm::vec3 p(place(random), place(random), 0);
             if (lit(p))
-                photons.push_back(
-                    {p - glm::vec3(scene.origin()), packed({0, 0, 1}), glm::vec4(1), packed({0, 0, 1})});
+                photons.push_back({p - glm::vec3(scene.origin()), packed({0, 0, 1}), glm::vec4(1), packed({0, 0, 1})});
         }
         const auto images = render::PhotonBorders{scene, **embree, casters}.images(photons, radius, jobs);
         photons.insert(photons.end(), images.begin(), images.end());
@@ -61,7 +61,8 @@ struct Floor {
     void check(glm::vec3 p, double expected = 1) const {
         const double found = density(p);
         INFO("at " << p.x << ' ' << p.y << ": " << found);
-        CHECK(std::abs(found - expected) < 0.2); // four standard deviations in a corner, where each photon counts four times
+        CHECK(std::abs(found - expected) <
+              0.2); // four standard deviations in a corner, where each photon counts four times
     }
 };
 
@@ -105,7 +106,8 @@ TEST_CASE("photon borders: at a box that stands on a floor") {
         floor.check({0.2f - away, 0, 0});
 }
 
-TEST_CASE("photon borders: light behind a thin wall, and behind a step lower than a tenth of the disk, stays what it is") {
+TEST_CASE(
+    "photon borders: light behind a thin wall, and behind a step lower than a tenth of the disk, stays what it is") {
     SceneBuilder b;
     floor_to(b, 2);
     wall(b, 0.2f, GENERATE(1.f, 0.01f));
@@ -117,9 +119,9 @@ TEST_CASE("photon borders: light behind a thin wall, and behind a step lower tha
 TEST_CASE("photon borders: a caster is none") {
     SceneBuilder b;
     floor_to(b, 2);
-    const auto box = b.instance(
-        cube(b), b.material("dielectric"),
-        glm::translate(glm::dmat4(1), glm::dvec3(1, 0, 0.5)) * glm::scale(glm::dmat4(1), {0.8, 2, 0.5}));
+    const auto box =
+        b.instance(cube(b), b.material("dielectric"),
+                   glm::translate(glm::dmat4(1), glm::dvec3(1, 0, 0.5)) * glm::scale(glm::dmat4(1), {0.8, 2, 0.5}));
     const Floor floor(b, [](glm::vec3) { return true; }, box);
     for (const float away : {-0.03f, 0.f, 0.03f, 0.06f})
         floor.check({0.2f - away, 0, 0});
