@@ -248,7 +248,7 @@ Result<void> render_to_target(Context& context, const RenderOptions& o, const sc
     const render::TracerKind& tracer = *render::find_tracer(renderer.tracer_name());
     warn_unused(scene.settings.value.guiding, "--guiding", tracer.guides, "a tracer that guides paths");
     warn_unused(scene.settings.value.caustics, "--caustics", tracer.photons && renderer.gpu_scene().features().caustics,
-                "a tracer with photon maps, RGB, a light, and a material that mirrors or refracts sharply");
+                "a tracer with photon maps, a light, and a material that mirrors or refracts sharply");
     const double start = now_seconds(), cpu_start = cpu_seconds();
     const std::uint32_t file_spp = scene.settings.value.samples ? scene.settings.value.samples : 64;
     const bool open_ended = o.seconds > 0 || o.error > 0;

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/extensions.glsl"
 #include "wave_common.glsl"
+#include "lib/photons.glsl"
 #include "lib/records.glsl"
 #include "path/begin.glsl"
 
@@ -20,6 +21,8 @@ void main() {
     rays.at[i].tnear = 0.0;
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     store_path(frame.paths, frame.fourths, i, path);
-    store_begin(frame.paths, frame.fourths, i, path);
+    float hero = -1.0;
+    if (HAS_CAUSTICS) hero = PhotonMapRef(frame.photons).map.hero;
+    store_begin(frame.paths, frame.fourths, i, path, hero);
     if (HAS_GUIDES) GuideArray(frame.guides).at[i] = guide_nothing(path.throughput.x);
 }

@@ -86,6 +86,24 @@ Start start_parallel(PhotonMap map, vec3 direction, Spectrum irradiance, vec2 u)
     return Start(origin, direction, irradiance / pdf);
 }
 
+// Radiance from direction wi over its density. One in four is uniform over the sphere: the densities of light sampling leave
+// what is darker than the mean to paths (make_environment_map).
+Spectrum start_at_environment(EnvironmentData env, uvec2 bits, out vec3 wi) {
+    const uint uniform_ones = 1u << 30;
+    Spectrum radiance;
+    float pdf;
+    if (env.mapping == ENV_CONSTANT || bits.x < uniform_ones) {
+        wi = sample_sphere(vec2(to_unit(env.mapping == ENV_CONSTANT ? bits.x : bits.x << 2), to_unit(bits.y)));
+        radiance = environment_eval(env, wi, pdf);
+    } else {
+        LightSample e = environment_sample(env, uvec2((bits.x - uniform_ones) / 3u * 4u, bits.y));
+        wi = e.wi;
+        radiance = e.radiance;
+        pdf = e.pdf;
+    }
+    return radiance / mix(pdf, 0.25 * INV_PI, 0.25);
+}
+
 Start start_on_surface(SceneData scene, PhotonMap map, LightData light, uint index, vec2 place, vec2 u) {
     uint kind = light.kind & 255u;
     vec3 q, n;
@@ -142,8 +160,9 @@ Start start_photon(SceneData scene, PhotonMap map, uint index) {
     uint kind = light.kind & 255u;
     Start s = Start(vec3(0), vec3(0, 0, 1), Spectrum(0));
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
-        LightSample e = environment_sample(scene.environment, place);
-        if (e.pdf > 0.0) s = start_parallel(map, -e.wi, e.radiance / e.pdf, u);
+        vec3 wi;
+        Spectrum irradiance = start_at_environment(scene.environment, place, wi);
+        s = start_parallel(map, -wi, irradiance, u);
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP && lamp_is_parallel(kind - LIGHT_LAMP)) {
         s = start_parallel(map, light.b, stored_spectrum(light.value), u);
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP) {
@@ -164,6 +183,9 @@ void main() {
     SceneData scene = wave_scene();
     PhotonMap map = PhotonMapRef(frame.photons).map;
     uint index = map.first_path + i;
+#ifdef RESTAGE_SPECTRAL
+    spectral_begin(scene, map.hero);
+#endif
     Start s = start_photon(scene, map, index);
     bool alive = finite(s.power) && positive(max_component(s.power));
     RayArray rays = RayArray(frame.rays);
@@ -174,5 +196,5 @@ void main() {
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     PathState path = PathState(Spectrum(1), 0.0, s.power, PATH_PHOTON | PATH_SPECULAR, 1.0, scene.camera_medium, map.seed, index);
     store_path(frame.paths, frame.fourths, i, path);
-    store_begin(frame.paths, frame.fourths, i, path);
+    store_begin(frame.paths, frame.fourths, i, path, map.hero);
 }

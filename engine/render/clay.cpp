@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/clay.hpp"
 
+#include "render/hit_normal.hpp"
 #include "shared/octahedral.h"
 
 #include <algorithm>
@@ -50,14 +51,7 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
                 if (ray.inst == NONE) continue;
                 const std::size_t i = y * size.x + x;
                 const shared::InstanceData& instance = scene.instances()[ray.inst];
-                glm::vec3 own = ray.ng;
-                if (scene.is_quadric(ray.inst)) {
-                    const scene::Quadric& quadric = *scene.mesh(scene.mesh_of(ray.inst))->quadric;
-                    own = quadric.normal(quadric.at({ray.u, ray.v}));
-                }
-                const glm::vec3 across = instance.normal_to_world * own;
-                const float length = glm::length(across);
-                const glm::vec3 normal = length > 0 ? across / length : -ray.direction;
+                const glm::vec3 normal = hit_normal(scene, ray);
                 const float facing = std::abs(glm::dot(normal, ray.direction));
                 image.albedo[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay;
                 image.color[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay * (0.2f + 0.8f * facing);

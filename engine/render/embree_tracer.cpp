@@ -191,13 +191,16 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_TRY(const bool ready, running_->need_photons(request.keep_going));
         if (!ready || (request.keep_going && !request.keep_going())) return false;
         const std::uint32_t paths = CausticPhotons::paths_per_map(film.width() * film.rows());
-        RESTAGE_CHECK(caustics_.begin(map, request.seed, paths));
-        shared::FrameData f = frame_of(film, request);
-        RESTAGE_CHECK(begin_wave(scene, f));
-        RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), paths, request.keep_going,
-                                             [&] { caustics_.collect(active_); }));
-        if (!done) return false;
-        RESTAGE_CHECK(caustics_.finish());
+        caustics_.begin(map, request.seed, paths);
+        for (std::uint32_t first = 0; first < paths; first += wave_paths) {
+            RESTAGE_CHECK(caustics_.next_wave(first));
+            shared::FrameData f = frame_of(film, request);
+            RESTAGE_CHECK(begin_wave(scene, f));
+            RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), std::min(paths - first, wave_paths),
+                                                 request.keep_going, [&] { caustics_.collect(active_); }));
+            if (!done) return false;
+        }
+        RESTAGE_CHECK(caustics_.finish(scene, *embree_));
         return true;
     }
 

@@ -550,7 +550,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
     const std::tuple techniques(settings.adaptive, settings.guiding, settings.caustics);
     changes.image |= std::exchange(techniques_, techniques) != techniques;
     const bool sources = all_caustics_ ? emitters > 0 : (light_table_.kinds & (LIGHTS_SURFACES | LIGHTS_LAMPS)) != 0;
-    f.caustics = settings.caustics != scene::Technique::off && sources && !f.spectral && strategy_ == Strategy::mis &&
+    f.caustics = settings.caustics != scene::Technique::off && sources && strategy_ == Strategy::mis &&
                  std::ranges::any_of(types_, [](const MaterialType& t) { return t.used && t.may_be_specular(); });
     changes.shaders |= f != features_ || first_;
     features_ = f;

@@ -15,7 +15,7 @@ namespace restage::render {
 namespace {
 
 constexpr double alpha = 2.0 / 3;       // of the squared radius that a map leaves: Knaus and Zwicker 2011, sec. 5
-constexpr std::size_t neighbours = 10;  // photons within the first radius, at the median photon
+constexpr std::size_t neighbours = 5;   // photons within the first radius, at the median photon
 constexpr std::size_t probes = 256;     // photons whose neighbours are looked for
 constexpr double small = 0.1; // solid angle [sr] of a light, seen from casters, below which paths rarely find it
 
@@ -67,7 +67,21 @@ double solid_angle(double radius, double distance) { // of a sphere, roughly
     return distance > radius ? std::numbers::pi * radius * radius / (distance * distance) : 4 * std::numbers::pi;
 }
 
-double luminance(const glm::vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+// Of a light's value, as records store it; roughly.
+double brightness(const glm::vec3& c, bool spectral) {
+    return spectral ? double(c.z) : 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+// The number that chooses the wavelengths of a map: of any 4^n maps in a row the sets of four wavelengths are evenly
+// spread, and so is the one of the four that is left after dispersion. Points of the (0, 2)-sequence of Sobol 1967, by
+// Kollig and Keller 2002.
+float hero_of(std::uint32_t map, std::uint32_t seed) {
+    std::uint32_t set = 0, first = 0;
+    for (std::uint32_t i = map, a = 1u << 31, b = 1u << 31; i; i >>= 1, a >>= 1, b ^= b >> 1)
+        if (i & 1) set ^= a, first ^= b;
+    set += shared::pcg_hash(seed ^ 0x51ed270bu);
+    return 0.25f * (float(first >> 30) + float(set >> 8) * 0x1p-24f);
+}
 
 template <class T>
 Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, std::span<const T> values, const char* name) {
@@ -81,11 +95,11 @@ Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, std::span<const T> v
 } // namespace
 
 std::uint32_t CausticPhotons::samples_per_map(std::uint32_t pixels) {
-    return std::clamp(4 * paths_per_map(pixels) / std::max(pixels, 1u), 1u, 16u);
+    return std::clamp(paths_per_map(pixels) / std::max(2 * pixels, 1u), 1u, 16u);
 }
 
 std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) {
-    return std::clamp(pixels / 2, 4096u, WAVE_PATHS) / 64 * 64;
+    return std::clamp(2 * pixels, 4096u, 16 * WAVE_PATHS) / 64 * 64;
 }
 
 Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> casters, bool all) {
@@ -96,6 +110,7 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
     sources_.clear();
     casters_.clear();
     head_ = {};
+    head_.hero = -1;
     Box world;
     std::vector<Box> boxes;
     const auto n = std::uint32_t(scene.instances().size());
@@ -148,6 +163,7 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
         RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon), gpu::BufferKind::readback,
                                                      "photons of a wave"));
     }
+    is_caster_ = std::move(casters);
     head_.center = glm::vec3(world.empty() ? glm::dvec3(0) : world.center());
     head_.scene_radius = world.empty() ? 1.f : float(world.radius() * 1.001);
     head_.source_count = std::uint32_t(sources_.size());
@@ -189,28 +205,33 @@ void CausticPhotons::find_sources(const GpuScene& scene, const std::function<boo
         double power = 0;
         if (kind == LIGHT_ENVIRONMENT) continue;
         if (kind >= LIGHT_LAMP && shared::lamp_is_parallel(kind - LIGHT_LAMP)) {
-            power = luminance(light.value) * shadow;
+            power = brightness(light.value, scene.features().spectral) * shadow;
         } else if (kind >= LIGHT_LAMP) {
-            power = luminance(light.value) * casters_seen(light.a);
+            power = brightness(light.value, scene.features().spectral) * casters_seen(light.a);
         } else if (!(light.kind & LIGHT_PAIR_END) && pays(node)) {
             const glm::vec3 center = kind == LIGHT_QUADRIC ? node.center : light.a + (light.b + light.c) / 3.f;
             const double area =
                 kind == LIGHT_QUADRIC ? double(node.radius) * node.radius * 4 * std::numbers::pi : double(light.area);
-            power = luminance(light.value) * area * casters_seen(center);
+            power = brightness(light.value, scene.features().spectral) * area * casters_seen(center);
         }
         add_source(i, power);
     }
 }
 
-Result<void> CausticPhotons::begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths) {
+void CausticPhotons::begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths) {
     if (seed != seed_) first_radius_ = 0;
     map_ = map;
     seed_ = seed;
     whole_ = false;
     photons_.clear();
     head_.per_photon = 1.f / float(paths);
+    head_.seed = shared::pcg_hash(map ^ shared::pcg_hash(seed ^ 0x6c8e9cf5u));
+    head_.hero = hero_of(map, seed);
+}
+
+Result<void> CausticPhotons::next_wave(std::uint32_t first_path) {
     shared::PhotonMap head = head_;
-    head.seed = shared::pcg_hash(map ^ shared::pcg_hash(seed ^ 0x6c8e9cf5u));
+    head.first_path = first_path;
     return upload(head);
 }
 
@@ -248,10 +269,12 @@ float CausticPhotons::radius_of(std::uint32_t map) const {
     return float(std::sqrt(square));
 }
 
-Result<void> CausticPhotons::finish() {
+Result<void> CausticPhotons::finish(const GpuScene& scene, const EmbreeScene& embree) {
     if (map_ == 0 && !(first_radius_ > 0)) first_radius_ = nearby();
     shared::PhotonMap head = head_;
     head.radius = radius_of(map_);
+    const auto images = PhotonBorders{scene, embree, is_caster_}.images(photons_, head.radius, jobs_);
+    photons_.insert(photons_.end(), images.begin(), images.end());
     head.count = std::uint32_t(photons_.size());
     // By cells of two radii: a counting sort by the hash of the cell.
     const std::uint32_t buckets = std::bit_ceil(std::max(head.count, 64u));

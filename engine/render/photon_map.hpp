@@ -7,6 +7,7 @@
 #include "base/jobs.hpp"
 #include "gpu/device.hpp"
 #include "render/gpu_scene.hpp"
+#include "render/photon_borders.hpp"
 #include "shared/photon_data.h"
 
 #include <cstdint>
@@ -28,15 +29,17 @@ class CausticPhotons {
     bool active() const { return !sources_.empty(); }
     std::uint64_t address() const { return record_.address(); } // of shared::PhotonMap, once started
 
-    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. So many photons are
-    // started that they cost little beside the paths, from the first sample on: pictures follow edits.
+    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. Two photons a sample:
+    // the noise of a map is common to all pixels that see the same photons, so that samples alone do not average it
+    // out.
     static std::uint32_t paths_per_map(std::uint32_t pixels);
     static std::uint32_t samples_per_map(std::uint32_t pixels);
     bool has(std::uint32_t map, std::uint32_t seed) const { return whole_ && map_ == map && seed_ == seed; }
-    // Empties the map; then waves of photons, collect() after each bounce, and finish().
-    Result<void> begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
+    // Empties the map; then waves of its `paths` photons, collect() after each bounce, and finish().
+    void begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths);
+    Result<void> next_wave(std::uint32_t first_path);
     void collect(std::span<const std::uint32_t> paths); // that were shaded
-    Result<void> finish();
+    Result<void> finish(const GpuScene&, const EmbreeScene&);
     bool knows_radius(std::uint32_t seed) const { return seed_ == seed && first_radius_ > 0; } // once map 0 was made
     std::size_t count() const { return photons_.size(); }
 
@@ -53,6 +56,7 @@ class CausticPhotons {
     Jobs& jobs_;
     bool started_ = false;
     std::vector<shared::PhotonSource> sources_;
+    std::vector<char> is_caster_; // by instance
     std::vector<shared::CasterSphere> casters_;
     std::vector<shared::Photon> photons_;
     float first_radius_ = 0; // of map 0; 0 = not known yet

@@ -96,11 +96,11 @@ void store_path(address paths, address fourths, uint i, PathState path) {
     store_light(paths, fourths, i, path);
     store(WordPairs(paths + uint64_t(i) * 48ul), 4u, floatBitsToUint(path.eta_scale), path.medium);
 }
-// Those, and the wavelengths.
-void store_begin(address paths, address fourths, uint i, PathState path) {
+// Those, and the wavelengths: by `hero`, or if it is negative the path's own.
+void store_begin(address paths, address fourths, uint i, PathState path, float hero) {
     store(WordPairs(paths + uint64_t(i) * 48ul), 5u, path.seed, path.sample_index);
 #ifdef RESTAGE_SPECTRAL
-    store(FOURTH_PAIRS(i), 1u, 0.0, hero_number(path.seed, path.sample_index));
+    store(FOURTH_PAIRS(i), 1u, 0.0, hero < 0.0 ? hero_number(path.seed, path.sample_index) : hero);
 #endif
 }
 

@@ -15,7 +15,7 @@ Photon photon_deposit; // where a photon met a surface that scatters
 void photons_begin(address map, uint instance) {
     photon_map = PhotonMapRef(map).map;
     photon_role = UintArray(photon_map.roles).at[instance];
-    photon_deposit = Photon(vec3(0), 0u, vec3(-1), 0u);
+    photon_deposit = Photon(vec3(0), 0u, vec4(-1), 0u);
 }
 
 // Distance of a photon's plane from the vertex, in radii, and the least cosine between their normals: others are on another
@@ -33,7 +33,12 @@ bool scatters(Material m, vec3 wo, BsdfSample b, inout Rng rng) {
 
 void photon_stop(Surface s, vec3 wo_world, Spectrum power) {
     vec3 n = dot(wo_world, s.ng) < 0.0 ? -s.ng : s.ng;
-    photon_deposit = Photon(s.p, packSnorm2x16(direction_to_octahedral(wo_world) * 2.0 - 1.0), rgb_from_spectrum(power),
+#ifdef RESTAGE_SPECTRAL
+    vec4 stored = power;
+#else
+    vec4 stored = vec4(power, 0.0);
+#endif
+    photon_deposit = Photon(s.p, packSnorm2x16(direction_to_octahedral(wo_world) * 2.0 - 1.0), stored,
                             packSnorm2x16(direction_to_octahedral(n) * 2.0 - 1.0));
 }
 
@@ -63,7 +68,7 @@ Spectrum gather_photons(Material m, Surface s, vec3 wo_world, inout Rng rng) {
             if (abs(dot(n, s.ng)) < GATHER_COSINE || arriving < 1e-4) continue;
             vec3 wi = to_local(s, wi_world);
             if (same_side == same_hemisphere(wo, wi))
-                sum += material_eval(m, wo, wi, rng) * spectrum_from_rgb_unbounded(photons.at[i].power) / arriving;
+                sum += material_eval(m, wo, wi, rng) * Spectrum(photons.at[i].power) / arriving;
         }
     }
     return sum * (photon_map.per_photon * INV_PI / r2);

@@ -16,10 +16,11 @@ RESTAGE_CONSTANTS_END
 
 RESTAGE_SHARED_BEGIN
 
-struct Photon { // 32 bytes
+struct Photon { // 36 bytes
     vec3 p;
     uint direction; // to where it came from; octahedral, 16 bits each
-    vec3 power; // [W], of all photons together as many times as there are; a deposit with x < 0: none
+    vec4 power; // [W], of all photons together as many times as there are; RGB, or of the map's wavelengths. A deposit
+                // with x < 0: none
     uint normal; // of the surface it met, on the side it came from
 };
 
@@ -50,7 +51,8 @@ struct PhotonMap {
     uint seed, first_path; // of this wave of photons
     vec3 center; // of a sphere around the scene
     float scene_radius;
-    uint pad0;
+    float hero; // spectral mode: chooses the wavelengths of photons and of the paths that gather them; < 0: each path
+                // its own
 };
 
 RESTAGE_INLINE uint photon_cell_hash(int x, int y, int z) {

@@ -27,6 +27,7 @@ SWITCHES = {
     "limit indirect, 5 means": lambda mean: ["--clamp-indirect", str(5 * mean)],
     "ray offset 1e-4": lambda mean: ["--ray-epsilon", "1e-4"],
     "denoised, high": lambda mean: ["--reference", "--denoise", "high"],
+    "photon maps on": lambda mean: ["--caustics", "on"],
     "RGB instead of wavelengths": None,  # --reference against --reference --spectral
 }
 
@@ -46,10 +47,10 @@ def difference(pairs):
     return statistics.fmean(changes), statistics.stdev(changes) / len(changes) ** 0.5
 
 
-def measure(scene, size, spp, seeds):
+def measure(scene, switches, size, spp, seeds):
     plain = [mean_of(scene, seed, ["--reference"], size, spp) for seed in range(seeds)]
     row = {}
-    for name, options in SWITCHES.items():
+    for name, options in switches.items():
         if options:
             pairs = [(mean_of(scene, seed, options(plain[seed]), size, spp), plain[seed]) for seed in range(seeds)]
         else:
@@ -58,10 +59,10 @@ def measure(scene, size, spp, seeds):
     return row
 
 
-def table(rows):
-    lines = ["| scene | " + " | ".join(SWITCHES) + " |", "|---|" + "---|" * len(SWITCHES)]
+def table(rows, switches):
+    lines = ["| scene | " + " | ".join(switches) + " |", "|---|" + "---|" * len(switches)]
     for scene, row in rows.items():
-        lines.append(f"| {scene} | " + " | ".join(f"{bias:+.2f} ± {error:.2f}" for bias, error in (row[s] for s in SWITCHES)) + " |")
+        lines.append(f"| {scene} | " + " | ".join(f"{bias:+.2f} ± {error:.2f}" for bias, error in (row[s] for s in switches)) + " |")
     return "\n".join(lines)
 
 
@@ -72,14 +73,16 @@ def main():
     parser.add_argument("--spp", type=int, default=256)
     parser.add_argument("--seeds", type=int, default=4)
     parser.add_argument("--json", type=pathlib.Path, help="also write the figures")
+    parser.add_argument("--only", metavar="SWITCH", choices=SWITCHES, help="just this column")
     options = parser.parse_args()
+    switches = {options.only: SWITCHES[options.only]} if options.only else SWITCHES
     rows = {}
     for scene in options.scenes:
-        rows[scene.parent.name] = measure(scene, options.size, options.spp, options.seeds)
+        rows[scene.parent.name] = measure(scene, switches, options.size, options.spp, options.seeds)
         print(scene.parent.name, rows[scene.parent.name], file=sys.stderr)
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1))
-    print(table(rows))
+    print(table(rows, switches))
 
 
 if __name__ == "__main__":
