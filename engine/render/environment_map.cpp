@@ -4,7 +4,9 @@
 #include "render/cdf_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace restage::render {
@@ -48,6 +50,33 @@ void make_tables(EnvironmentMap& map, scene::Mapping mapping) {
         map.columns.insert(map.columns.end(), table.begin(), table.end());
     }
     map.rows = make_cdf(rows);
+}
+
+// Share of the power in the brightest `angle` sr. weight: of each texel [luminance times its row's solid angle], all in units
+// of which `total` are the sphere.
+double brightest(const std::vector<double>& weights, const std::function<double(std::size_t)>& solid_angle, double total,
+                 double angle) {
+    struct Bin {
+        double power = 0, angle = 0;
+    };
+    constexpr int per_octave = 8, octaves = 64; // of luminance
+    std::array<Bin, per_octave * octaves> bins;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!(weights[i] > 0)) continue;
+        const double texel = solid_angle(i), level = std::log2(weights[i] / texel);
+        Bin& bin = bins[std::size_t(std::clamp((level + octaves / 2.0) * per_octave, 0.0, double(bins.size() - 1)))];
+        bin.power += weights[i];
+        bin.angle += texel;
+    }
+    double all = 0, sum = 0, left = angle * total / (4 * std::numbers::pi);
+    for (std::size_t k = bins.size(); k-- > 0;) {
+        const Bin& bin = bins[k];
+        all += bin.power;
+        if (!(left > 0) || !(bin.angle > 0)) continue;
+        sum += bin.power * std::min(1.0, left / bin.angle);
+        left -= bin.angle;
+    }
+    return all > 0 ? sum / all : 0;
 }
 
 } // namespace
@@ -94,6 +123,8 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mappin
         map.texels.clear();
         return map;
     }
+    map.focus = float(brightest(
+        weights, [&](std::size_t i) { return solid_angle(i / map.width); }, total, 0.1));
     if (compensate) {
         std::vector<double> brighter(n);
         double left = 0;

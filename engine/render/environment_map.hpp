@@ -18,6 +18,7 @@ struct EnvironmentMap {
     std::vector<shared::CdfEntry> rows;    // height + 1: rows of cells
     std::vector<shared::CdfEntry> columns; // width + 1 for each row
     glm::vec3 mean{0};                     // over the sphere, without scale
+    float focus = 0; // share of its power that comes from its brightest 0.1 sr: near 1 for a sky with a sun
     std::size_t mended = 0;                // number of negative or non-finite values, replaced by 0
 };
 

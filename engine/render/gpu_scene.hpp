@@ -66,6 +66,7 @@ class GpuScene {
     const std::vector<shared::MaterialData>& materials() const { return materials_.host(); }
     const std::vector<shared::InstanceData>& instances() const { return instances_.host(); } // by Id::value
     bool all_caustics() const { return all_caustics_; } // photons start from every light, not just where it pays
+    bool sunny() const { return environment_.focus > 0.5f; } // paths rarely find most of the environment's light
     const std::vector<shared::LightData>& lights() const { return lights_.host(); }
     const std::vector<shared::LightNode>& light_nodes() const { return light_nodes_.host(); }
     const GpuMesh* mesh(scene::Id<scene::Mesh> id) const;

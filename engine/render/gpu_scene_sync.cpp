@@ -549,7 +549,9 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
     all_caustics_ = settings.caustics == scene::Technique::on;
     const std::tuple techniques(settings.adaptive, settings.guiding, settings.caustics);
     changes.image |= std::exchange(techniques_, techniques) != techniques;
-    const bool sources = all_caustics_ ? emitters > 0 : (light_table_.kinds & (LIGHTS_SURFACES | LIGHTS_LAMPS)) != 0;
+    const bool sources = all_caustics_ ? emitters > 0
+                                       : (light_table_.kinds & (LIGHTS_SURFACES | LIGHTS_LAMPS)) != 0 ||
+                                             (light_table_.environment != NONE && sunny());
     f.caustics = settings.caustics != scene::Technique::off && sources && strategy_ == Strategy::mis &&
                  std::ranges::any_of(types_, [](const MaterialType& t) { return t.used && t.may_be_specular(); });
     changes.shaders |= f != features_ || first_;

@@ -132,7 +132,7 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
                 most = std::max(most, solid_angle(node.radius, b.distance(node.center)));
             return most < small;
         });
-        if (all) add_environment(scene);
+        if (all || scene.sunny()) add_environment(scene);
     }
     if (active()) {
         for (std::uint32_t i = 0; i < n; ++i)

@@ -69,6 +69,49 @@ TEST_CASE("caustics: the sun through two panes of glass") {
     CHECK(mean_of("embree", b, 16) < 0.02 * expected); // only by way of the floor outside
 }
 
+TEST_CASE("caustics: the sun of an environment image through two panes of glass") {
+    SceneBuilder b;
+    watch_floor(b);
+    const auto pane = cube(b);
+    for (const double z : {1.0, 1.2})
+        b.instance(pane, b.material("dielectric", numbers({{"eta", 1.5f}})),
+                   glm::translate(glm::dmat4(1), glm::dvec3(0, 0, z)) * glm::scale(glm::dmat4(1), {0.8, 0.8, 0.02}));
+    const int width = 128, height = 64, column = 40, row = 5; // of the sun's texel
+    const auto sky = [&](float sun) {
+        std::vector<float> texels(std::size_t(width) * height, 0.1f);
+        texels[std::size_t(row) * width + column] = sun;
+        scene::Environment e{.name = "sky", .scale = glm::vec3(1)};
+        e.image = b.image(width, height, 1, std::move(texels));
+        b.scene.environment = {e, ++b.scene.clock};
+    };
+    const float sun = 10000;
+    sky(sun);
+    set_caustics(b, scene::Technique::automatic, 40);
+    const auto renderer = make_renderer("embree");
+    const double mean = mean_luminance(render_image(*renderer, b.scene, 1024)).value;
+    CHECK(renderer->gpu_scene().sunny());
+    set_caustics(b, scene::Technique::off, 40);
+    const double sky_alone = [&] {
+        sky(0.1f);
+        return mean_luminance(render_image(*renderer, b.scene, 256)).value;
+    }();
+    CHECK(!renderer->gpu_scene().sunny());
+    // Radiance is bilinear between the middles of texels: the sun is two by two texels, less at its edges. Four surfaces as
+    // above, each with the mean of Fresnel's two reflectances.
+    const double pi = std::numbers::pi, step = 1.0 / 32;
+    double expected = 0;
+    for (double v = -1 + step / 2; v < 1; v += step) {
+        const double theta = (row + 0.5 + v) * pi / height, c = std::cos(theta),
+                     t = std::sqrt(1 - (1 - c * c) / (1.5 * 1.5));
+        const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t), r = (s * s + p * p) / 2;
+        expected += double(sun - 0.1f) * (1 - std::abs(v)) * step * (pi / height) * (2 * pi / width) * std::sin(theta) * c *
+                    (1 - r) / (1 + 3 * r);
+    }
+    const double error = (mean - sky_alone) / (albedo / pi * expected) - 1;
+    INFO("relative error " << error << ", of the sky " << sky_alone / mean);
+    CHECK(std::abs(error) < 0.02);
+}
+
 TEST_CASE("caustics: a mirror shows a floor its lamp a second time") {
     SceneBuilder b;
     watch_floor(b);
