@@ -55,7 +55,8 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
                     const scene::Quadric& quadric = *scene.mesh(scene.mesh_of(ray.inst))->quadric;
                     own = quadric.normal(quadric.at({ray.u, ray.v}));
                 }
-                const glm::vec3 across = instance.normal_to_world * own;
+                const bool in_world = embree.flat() && !scene.is_quadric(ray.inst);
+                const glm::vec3 across = in_world ? own : instance.normal_to_world * own;
                 const float length = glm::length(across);
                 const glm::vec3 normal = length > 0 ? across / length : -ray.direction;
                 const float facing = std::abs(glm::dot(normal, ray.direction));
