@@ -27,17 +27,19 @@ bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float nea
     return (near >= 0) & (near <= far) & (far_out <= reach) & (steep <= 1e3f);
 }
 
-// Packets. Embree is told nothing of coherence: then it traverses for one ray after the other, so that among hits at one
-// distance the choice does not depend on the other rays.
-template <int size> struct Packet;
+// Packets. Embree is told nothing of coherence: then it traverses for one ray after the other, so that among hits at
+// one distance the choice does not depend on the other rays.
+template <int size>
+struct Packet;
 #if RESTAGE_EMBREE_MAJOR == 3
-#define RESTAGE_ASK(query, scene, context, rays)                                                                       \
-    EmbreeQuery context;                                                                                               \
+#define RESTAGE_ASK(query, scene, context, rays) \
+    EmbreeQuery context;                         \
     query(valid, scene, &(context).embree, rays)
 #else
 #define RESTAGE_ASK(query, scene, context, rays) query(valid, scene, rays, nullptr)
 #endif
-template <> struct Packet<8> {
+template <>
+struct Packet<8> {
     using Hits = RTCRayHit8;
     using Rays = RTCRay8;
     static void intersect(const int* valid, RTCScene scene, Hits& hits) {
@@ -47,7 +49,8 @@ template <> struct Packet<8> {
         RESTAGE_ASK(rtcOccluded8, scene, context, &rays);
     }
 };
-template <> struct Packet<16> {
+template <>
+struct Packet<16> {
     using Hits = RTCRayHit16;
     using Rays = RTCRay16;
     static void intersect(const int* valid, RTCScene scene, Hits& hits) {
