@@ -26,6 +26,7 @@ SceneData wave_scene() {
     scene.clamp_direct = push.clamp_direct;
     scene.clamp_indirect = push.clamp_indirect;
     scene.ray_epsilon = push.ray_epsilon;
+    scene.world_copies = push.world_copies;
     if (HAS_GUIDING) scene.guiding = FrameRef(push.frame).frame.guiding;
     return scene;
 }

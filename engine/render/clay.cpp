@@ -51,7 +51,7 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
                 if (ray.inst == NONE) continue;
                 const std::size_t i = y * size.x + x;
                 const shared::InstanceData& instance = scene.instances()[ray.inst];
-                const glm::vec3 normal = hit_normal(scene, ray);
+                const glm::vec3 normal = hit_normal(scene, embree, ray);
                 const float facing = std::abs(glm::dot(normal, ray.direction));
                 image.albedo[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay;
                 image.color[i] = (instance.flags & INSTANCE_EMITS) ? lamp : clay * (0.2f + 0.8f * facing);

@@ -1,161 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/embree_scene.hpp"
+#include "render/embree_api.hpp"
 
-#if RESTAGE_EMBREE_MAJOR == 3
-#include <embree3/rtcore.h>
-#else
-#include <embree4/rtcore.h>
-#endif
 #include <fmt/format.h>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 namespace restage::render {
 
-static_assert(sizeof(shared::RayHit) == sizeof(RTCRayHit));
-static_assert(offsetof(shared::RayHit, tfar) == offsetof(RTCRayHit, ray.tfar));
-static_assert(offsetof(shared::RayHit, u) == offsetof(RTCRayHit, hit.u));
-static_assert(offsetof(shared::RayHit, geom) == offsetof(RTCRayHit, hit.geomID));
-static_assert(offsetof(shared::RayHit, inst) == offsetof(RTCRayHit, hit.instID));
-static_assert(offsetof(shared::ShadowRay, contribution) == sizeof(RTCRay));
-static_assert(sizeof(shared::ShadowRay) == 64);
-
-struct EmbreeScene::Mesh {
-    RTCScene scene = nullptr;
-    RTCGeometry geometry = nullptr; // owned by `scene`
-    bool filtered = false;
-    const EmbreeScene* owner = nullptr;
-    ~Mesh() {
-        if (scene) rtcReleaseScene(scene);
-    }
-};
-
 namespace {
-
-#if RESTAGE_EMBREE_MAJOR == 3
-using Context = RTCIntersectContext;
-void init_context(Context& c) { rtcInitIntersectContext(&c); }
-#else
-using Context = RTCRayQueryContext;
-void init_context(Context& c) { rtcInitRayQueryContext(&c); }
-#endif
-
-struct QueryContext {
-    Context embree; // first: the part known to Embree
-    bool borders;   // query hits borders of media, not surfaces
-    bool shadow;    // query hits surfaces that block light
-    glm::vec3 origin, direction; // of the ray in world space: Embree transforms it to instance space
-    std::vector<EmbreeScene::Undecided>* undecided; // null: undecidable hits are decided by averages
-};
-
-// Whether the hit is deferred: then the ray continues.
-bool put_aside(const GpuScene& scene, const QueryContext& query, const EmbreeScene::Undecided& hit) {
-    if (!query.undecided || !scene.undecided(hit.instance)) return false;
-    if (!(query.shadow && (scene.instances()[hit.instance].flags & INSTANCE_PASSES))) query.undecided->push_back(hit);
-    return true;
-}
-
-// The decision of hit_filter on this hit of a world-space ray.
-bool passes_filter(const GpuScene& scene, const QueryContext& query, unsigned instance,
-                   const GpuScene::QuadricHit& hit) {
-    const auto flags = scene.instances()[instance].flags;
-    if ((flags & INSTANCE_HAS_ALPHA) &&
-        !scene.alpha_passes(instance, hit.leaves, hit.uv, &query.origin.x, &query.direction.x))
-        return false;
-    if ((flags & INSTANCE_PASSES) && query.shadow) return false;
-    return !(flags & INSTANCE_HAS_GAPS) ||
-           (scene.resolve_material(instance, 0, hit.uv) == MATERIAL_NOTHING) == query.borders;
-}
-
-// Intersects the quadric of Embree's current instance.
-std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, unsigned instance, glm::vec2 range) {
-    const auto& scene = **static_cast<const GpuScene* const*>(user);
-    const auto& query = *static_cast<const QueryContext*>(context);
-    GpuScene::QuadricHit hits[2];
-    const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
-    for (int i = 0; i < n; ++i) // the far one if the near one lets rays pass
-        if (!put_aside(scene, query, {hits[i].t, instance, 0, hits[i].uv, hits[i].leaves}) &&
-            passes_filter(scene, query, instance, hits[i]))
-            return hits[i];
-    return std::nullopt;
-}
-
-// One ray at a time: packets are not used.
-void box_intersect(const RTCIntersectFunctionNArguments* args) {
-    if (args->valid[0] != -1) return;
-    auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    const unsigned instance = args->context->instID[0];
-    const auto hit = meet(args->geometryUserPtr, args->context, instance, {ray.ray.tnear, ray.ray.tfar});
-    if (!hit) return;
-    ray.ray.tfar = hit->t;
-    ray.hit.u = hit->uv.x;
-    ray.hit.v = hit->uv.y;
-    ray.hit.primID = 0;
-    ray.hit.geomID = 0;
-    ray.hit.instID[0] = instance;
-}
-void box_occluded(const RTCOccludedFunctionNArguments* args) {
-    if (args->valid[0] != -1) return;
-    auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    if (meet(args->geometryUserPtr, args->context, args->context->instID[0], {ray.tnear, ray.tfar}))
-        ray.tfar = -std::numeric_limits<float>::infinity();
-}
-void box_bounds(const RTCBoundsFunctionArguments* args) { *args->bounds_o = {-1, -1, -1, 0, 1, 1, 1, 0}; }
-
-// Cut-outs, lamps without a surface, and mixes with a null component: called for candidate hits of meshes that some
-// instance uses that way.
-void hit_filter(const RTCFilterFunctionNArguments* args) {
-    const auto* scene = *static_cast<const GpuScene* const*>(args->geometryUserPtr);
-    const auto& query = *reinterpret_cast<const QueryContext*>(args->context);
-    const bool borders = query.borders;
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] != -1) continue;
-        const unsigned n = args->N;
-        const unsigned instance = args->context->instID[0], prim = RTCHitN_primID(args->hit, n, i);
-        const glm::vec2 bary(RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i));
-        const auto flags = scene->instances()[instance].flags;
-        if (put_aside(*scene, query, {RTCRayN_tfar(args->ray, n, i), instance, prim, bary, prim})) {
-            args->valid[i] = 0;
-            continue;
-        }
-        if (flags & INSTANCE_HAS_ALPHA) {
-            const float o[3] = {RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
-                                RTCRayN_org_z(args->ray, n, i)};
-            const float d[3] = {RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
-                                RTCRayN_dir_z(args->ray, n, i)};
-            if (!scene->alpha_passes(instance, prim, bary, o, d)) args->valid[i] = 0;
-        }
-        if ((flags & INSTANCE_PASSES) && query.shadow) args->valid[i] = 0;
-        if ((flags & INSTANCE_HAS_GAPS) &&
-            (scene->resolve_material(instance, prim, bary) == MATERIAL_NOTHING) != borders)
-            args->valid[i] = 0;
-    }
-}
 
 // Embree asserts that coordinates, in object space too, are below its FLT_LARGE, 1.844e18.
 constexpr float largest_coordinate = 5e17f; // of a point before three products are summed
 
-// It also asserts: no NaN, and an interval that starts at 0 or later. Whatever kernels computed from a scene of
-// absurd sizes counts as a miss instead.
-bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float near, float far, float reach) {
-    // Sums of non-negative values, which NaN also spoils; branch-free, as this runs for every ray.
-    const float far_out = std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z);
-    const float steep = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-    return (near >= 0) & (near <= far) & (far_out <= reach) & (steep <= 1e3f);
+bool has_plain_hits(const GpuScene& scene, std::uint32_t instance) {
+    return !(scene.instances()[instance].flags &
+             (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES | INSTANCE_QUADRIC));
+}
+
+bool is_simple(const GpuScene& scene) {
+    for (std::uint32_t i = 0; i < scene.instances().size(); ++i)
+        if (scene.traced(i) && !has_plain_hits(scene, i)) return false;
+    return true;
 }
 
 } // namespace
 
-Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, bool copies) {
+Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, Use use) {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
-    self->copies_ = copies;
+    self->use_ = use;
     self->reach_ = largest_coordinate;
     self->device_ = rtcNewDevice(fmt::format("threads={},set_affinity=0", threads).c_str());
     if (!self->device_)
         return fail(fmt::format("Embree could not be started (error {})", int(rtcGetDeviceError(nullptr))));
+    if (rtcGetDeviceProperty(self->device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+        self->packet_size_ = 16;
+    else if (rtcGetDeviceProperty(self->device_, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+        self->packet_size_ = 8;
     for (Instances* instances : {&self->surfaces_, &self->borders_}) {
         instances->scene = rtcNewScene(self->device_);
         rtcSetSceneFlags(instances->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
@@ -167,6 +48,7 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, bool 
 EmbreeScene::~EmbreeScene() {
     for (Instances* instances : {&surfaces_, &borders_})
         if (instances->scene) rtcReleaseScene(instances->scene);
+    if (flat_) rtcReleaseScene(flat_);
     meshes_.clear();
     box_.reset();
     if (device_) rtcReleaseDevice(device_);
@@ -174,6 +56,14 @@ EmbreeScene::~EmbreeScene() {
 
 Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& changes) {
     scene_ = &scene;
+    simple_ = is_simple(scene);
+    if (changes.meshes.empty() && changes.instances.empty()) return {};
+    if (flattening_pays(changes)) return flatten(changes);
+    return flat_ ? unflatten(changes) : update_instances(changes);
+}
+
+Result<void> EmbreeScene::update_instances(const SceneChanges& changes) {
+    const GpuScene& scene = *scene_;
     for (auto id : changes.meshes) {
         const GpuMesh* g = scene.mesh(id);
         if (!g) {
@@ -192,7 +82,7 @@ Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& chan
         mesh->geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         const auto set_buffer = [&](RTCBufferType type, RTCFormat format, std::size_t offset, std::size_t count,
                                     const void* source) {
-            if (!copies_)
+            if (!use_.copies)
                 rtcSetSharedGeometryBuffer(mesh->geometry, type, 0, format, g->buffer.mapped(), offset, 12, count);
             else if (void* own = rtcSetNewGeometryBuffer(mesh->geometry, type, 0, format, 12, count))
                 std::memcpy(own, source, 12 * count);
@@ -227,11 +117,8 @@ Result<void> EmbreeScene::make_box() {
     box_->scene = rtcNewScene(device_);
     rtcSetSceneFlags(box_->scene, RTC_SCENE_FLAG_ROBUST);
     box_->geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(box_->geometry, 1);
+    set_embree_box(box_->geometry);
     rtcSetGeometryUserData(box_->geometry, static_cast<void*>(&scene_));
-    rtcSetGeometryBoundsFunction(box_->geometry, box_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(box_->geometry, box_intersect);
-    rtcSetGeometryOccludedFunction(box_->geometry, box_occluded);
     rtcCommitGeometry(box_->geometry);
     rtcAttachGeometryByID(box_->scene, box_->geometry, 0);
     rtcReleaseGeometry(box_->geometry);
@@ -279,81 +166,13 @@ void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChang
         Mesh& mesh = scene.is_quadric(i) ? *box_ : *meshes_.at(wanted);
         if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES)) && !mesh.filtered) {
             mesh.filtered = true;
-            rtcSetGeometryIntersectFilterFunction(mesh.geometry, hit_filter);
-            rtcSetGeometryOccludedFilterFunction(mesh.geometry, hit_filter);
+            rtcSetGeometryIntersectFilterFunction(mesh.geometry, embree_hit_filter);
+            rtcSetGeometryOccludedFilterFunction(mesh.geometry, embree_hit_filter);
             rtcCommitGeometry(mesh.geometry);
             rtcCommitScene(mesh.scene);
         }
     }
     if (changed) rtcCommitScene(top.scene);
-}
-
-void EmbreeScene::intersect(const Instances& top, shared::RayHit& ray, std::vector<Undecided>* undecided) const {
-    if (!can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_)) return;
-    QueryContext context;
-    init_context(context.embree);
-    context.borders = &top == &borders_;
-    context.shadow = false;
-    context.undecided = undecided;
-    context.origin = ray.origin;
-    context.direction = ray.direction;
-#if RESTAGE_EMBREE_MAJOR == 3
-    rtcIntersect1(top.scene, &context.embree, reinterpret_cast<RTCRayHit*>(&ray));
-#else
-    RTCIntersectArguments args;
-    rtcInitIntersectArguments(&args);
-    args.context = &context.embree;
-    rtcIntersect1(top.scene, reinterpret_cast<RTCRayHit*>(&ray), &args);
-#endif
-}
-
-void EmbreeScene::intersect(shared::RayHit& ray, std::vector<Undecided>* undecided) const {
-    intersect(surfaces_, ray, undecided);
-}
-
-EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint32_t medium, float hero) const {
-    const glm::vec3& direction = stretch.direction;
-    glm::vec4 depth(0); // optical
-    float t = stretch.t_start;
-    std::uint32_t step = 4; // [ulp] past the border just met
-    alignas(16) shared::RayHit ray{};
-    ray.origin = stretch.origin;
-    ray.direction = direction;
-    ray.tnear = t;
-    ray.mask = ~0u;
-    for (;;) {
-        ray.tfar = stretch.t_end;
-        ray.geom = ray.inst = NONE;
-        intersect(borders_, ray, nullptr);
-        depth += scene_->absorption(medium, hero) * (ray.tfar - t);
-        if (ray.inst == NONE) return {glm::exp(-depth), medium};
-        medium = scene_->medium_behind(ray.inst, ray.prim, {ray.u, ray.v}, direction);
-        step = ray.tfar > t ? 4 : 2 * step; // rounding may find the same border again
-        t = std::max(t, ray.tfar);
-        ray.tnear = std::bit_cast<float>(std::bit_cast<std::uint32_t>(t) + step);
-    }
-}
-
-void EmbreeScene::occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided) const {
-    if (!can_be_asked(shadow.origin, shadow.direction, shadow.tnear, shadow.tfar, reach_)) {
-        shadow.tfar = -INFINITY; // an invalid ray carries no light
-        return;
-    }
-    QueryContext context;
-    init_context(context.embree);
-    context.borders = false;
-    context.shadow = true;
-    context.undecided = undecided;
-    context.origin = shadow.origin;
-    context.direction = shadow.direction;
-#if RESTAGE_EMBREE_MAJOR == 3
-    rtcOccluded1(surfaces_.scene, &context.embree, reinterpret_cast<RTCRay*>(&shadow));
-#else
-    RTCOccludedArguments args;
-    rtcInitOccludedArguments(&args);
-    args.context = &context.embree;
-    rtcOccluded1(surfaces_.scene, reinterpret_cast<RTCRay*>(&shadow), &args);
-#endif
 }
 
 } // namespace restage::render

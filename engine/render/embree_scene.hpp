@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree's view of a GpuScene: a scene per mesh on the buffers that kernels read, and one of the instances.
+// Embree's view of a GpuScene: a scene per mesh on the buffers that kernels read, and one of the instances. A scene
+// that was read as a whole and hardly repeats meshes is flat instead: one scene of all triangles in world space, until
+// an edit.
 #pragma once
 
 #include "render/gpu_scene.hpp"
 #include "shared/path_data.h"
 
 #include <memory>
+#include <span>
 #include <unordered_map>
 
 struct RTCDeviceTy;
@@ -15,8 +18,12 @@ namespace restage::render {
 
 class EmbreeScene {
   public:
-    // `copies`: copies meshes, for devices whose memory is slow to read from the CPU.
-    static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads, bool copies = false);
+    struct Use {
+        bool copies = false; // copies meshes, for devices whose memory is slow to read from the CPU
+        std::uint64_t flat_from = never; // triangles of a scene to be flattened
+    };
+    static constexpr std::uint64_t never = ~std::uint64_t(0);
+    static Result<std::unique_ptr<EmbreeScene>> create(unsigned threads, Use);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
 
@@ -35,6 +42,14 @@ class EmbreeScene {
     };
     void intersect(shared::RayHit& ray, std::vector<Undecided>* undecided = nullptr) const;
     void occluded(shared::ShadowRay& shadow, std::vector<Undecided>* undecided = nullptr) const;
+    // The same for several rays, those of these indices; in packets where that is faster. What a ray hits does not
+    // depend on the others. Of `ng`, nothing.
+    void intersect(std::span<shared::RayHit>, std::span<const std::uint32_t> which) const;
+    void occluded(std::span<shared::ShadowRay>, std::span<const std::uint32_t> which) const;
+
+    // Whether hits are those of triangles in world space, whose vertices are rounded there (lib/ray_offset.glsl), and
+    // `ng` is in world space, too.
+    bool flat() const { return flat_ != nullptr; }
 
     // Transmittance along a ray from t_start to t_end, and the medium there: Beer-Lambert between
     // the borders of media that the ray passes, nearest first; each one sets the medium behind it (pbrt 4ed, 11.4).
@@ -55,15 +70,28 @@ class EmbreeScene {
         std::vector<std::uint32_t> attached; // mesh by instance, 0 = not attached
     };
     EmbreeScene() = default;
+    Result<void> update_instances(const SceneChanges&);
+    bool flattening_pays(const SceneChanges&) const;
+    Result<void> flatten(const SceneChanges&);
+    Result<void> unflatten(const SceneChanges&);
+    RTCSceneTy* surfaces() const { return flat_ ? flat_ : surfaces_.scene; }
+    template <int>
+    void intersect_packets(std::span<shared::RayHit>, std::span<const std::uint32_t>) const;
+    template <int>
+    void occluded_packets(std::span<shared::ShadowRay>, std::span<const std::uint32_t>) const;
     void update(Instances&, const GpuScene&, const SceneChanges&, bool (GpuScene::*wanted)(std::uint32_t) const);
-    void intersect(const Instances&, shared::RayHit&, std::vector<Undecided>*) const;
+    void intersect(RTCSceneTy*, bool borders, shared::RayHit&, std::vector<Undecided>*) const;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
-    bool copies_ = false;
+    Use use_;
+    int packet_size_ = 1; // that this machine's instructions support
+    bool simple_ = false; // no query needs to know its ray: no cut-outs, quadrics, ...
     float reach_ = 0; // limit of ray coordinates, so that they fit the smallest object's space [scene units]
     Instances surfaces_, borders_; // what light hits; borders of media, which it passes
     Result<void> make_box();
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; without quadrics
+    RTCSceneTy* flat_ = nullptr; // instead of surfaces_; geometries by instance
+    std::vector<scene::Id<scene::Mesh>> not_built_; // meshes of a flat scene
     std::unique_ptr<Mesh> box_; // for all quadrics; null until needed
 };
 

@@ -64,7 +64,7 @@ class Surroundings { // of one photon
     // Whether photons there would be gathered with this one's neighbours.
     bool is_surface(const glm::vec3& p) const {
         const auto hit = cast(p + n_ * (height * r_), -n_, (height + gather_height) * r_);
-        return hit && is_parallel(hit_normal(b_.scene, *hit));
+        return hit && is_parallel(hit_normal(b_.scene, b_.embree, *hit));
     }
 
   private:
@@ -81,7 +81,7 @@ class Surroundings { // of one photon
             ray.geom = ray.inst = NONE;
             b_.embree.intersect(ray);
             if (ray.inst == NONE) return std::nullopt;
-            if (!b_.casters[ray.inst] || is_parallel(hit_normal(b_.scene, ray))) return ray;
+            if (!b_.casters[ray.inst] || is_parallel(hit_normal(b_.scene, b_.embree, ray))) return ray;
             ray.tnear = ray.tfar + 1e-4f * r_;
         }
         return std::nullopt;
@@ -93,7 +93,7 @@ class Surroundings { // of one photon
         const glm::vec3 start = p_ + n_ * (height * r_), towards = glm::normalize(reach * along - height * n_);
         const auto hit = cast(start, towards, 1.2f * reach * r_);
         if (!hit) return edge_towards(angle);
-        const glm::vec3 normal = hit_normal(b_.scene, *hit), q = start + towards * hit->tfar - p_;
+        const glm::vec3 normal = hit_normal(b_.scene, b_.embree, *hit), q = start + towards * hit->tfar - p_;
         if (is_parallel(normal))
             return std::abs(glm::dot(q, n_)) <= gather_height * r_ ? std::nullopt : edge_towards(angle);
         glm::vec3 across = glm::normalize(normal - n_ * glm::dot(normal, n_));
@@ -108,7 +108,7 @@ class Surroundings { // of one photon
         const glm::vec3 behind = hit.origin + direction * hit.tfar + glm::normalize(direction + n_) * (1e-3f * r_);
         const auto next = cast(behind, n_, 1e30f);
         if (!next || next->inst != hit.inst) return false;
-        return (glm::dot(hit_normal(b_.scene, *next), n_) > 0) != (glm::dot(normal, direction) > 0);
+        return (glm::dot(hit_normal(b_.scene, b_.embree, *next), n_) > 0) != (glm::dot(normal, direction) > 0);
     }
 
     // How far the surface goes, at most `reach`.

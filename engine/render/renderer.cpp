@@ -88,7 +88,7 @@ Result<void> Renderer::revive(const scene::Scene& scene) {
 Result<FilmImage> Renderer::clay(glm::uvec2 size) {
     const EmbreeScene* embree = tracer_->embree();
     if (!embree && !clay_scene_) {
-        RESTAGE_TRY(clay_scene_, EmbreeScene::create(jobs_.threads(), true));
+        RESTAGE_TRY(clay_scene_, EmbreeScene::create(jobs_.threads(), {.copies = true}));
         SceneChanges all;
         for (std::uint32_t i = 0; i < gpu_scene_->instances().size(); ++i)
             if (gpu_scene_->traced(i) || gpu_scene_->border(i)) {

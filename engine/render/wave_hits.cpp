@@ -7,8 +7,21 @@
 namespace restage::render {
 namespace {
 
-constexpr std::size_t ahead = 3; // paths prefetched: kernels left them in another cache
+constexpr std::size_t ahead = 16; // paths prefetched: kernels left them in another cache
 constexpr std::uint8_t type_none = WaveMemory::type_none;
+
+// Paths whose rays are traced together.
+class Batch {
+  public:
+    void add(std::uint32_t path) { paths_[size_++] = path; }
+    bool full() const { return size_ == paths_.size(); }
+    void clear() { size_ = 0; }
+    std::span<const std::uint32_t> paths() const { return {paths_.data(), size_}; }
+
+  private:
+    std::array<std::uint32_t, 16> paths_;
+    std::size_t size_ = 0;
+};
 
 } // namespace
 
@@ -70,26 +83,44 @@ std::uint32_t WaveHits::trace_shadows(const View& view, std::span<const std::uin
     const auto shadows = wave_.shadows();
     const auto paths = wave_.paths();
     std::uint32_t traced = 0;
+    Batch batch;
     for (std::size_t a = 0; a < active.size(); ++a) {
         if (a + ahead < active.size()) {
             __builtin_prefetch(&shadows[active[a + ahead]]);
             __builtin_prefetch(&paths[active[a + ahead]]);
         }
-        shared::ShadowRay& shadow = shadows[active[a]];
-        if (!(shadow.tfar > 0)) continue;
-        ++traced;
-        const float distance = shadow.tfar;
-        const std::size_t first = undecided ? undecided->hits.size() : 0;
-        view.embree.occluded(shadow, undecided ? &undecided->hits : nullptr);
-        const bool is_free = shadow.tfar > 0;
-        shadow.tfar = -1;
-        if (undecided && !is_free) undecided->hits.resize(first);
-        if (undecided && undecided->hits.size() > first)
-            undecided->open.push_back({active[a], true, distance, first, undecided->hits.size() - first});
-        else if (is_free)
-            add_light(view, active[a], distance);
+        if (shadows[active[a]].tfar > 0) batch.add(active[a]);
+        if (!batch.full() && a + 1 < active.size()) continue;
+        traced += std::uint32_t(batch.paths().size());
+        if (undecided) {
+            for (const std::uint32_t i : batch.paths())
+                occluded_undecided(view, i, *undecided);
+        } else {
+            view.embree.occluded(shadows, batch.paths());
+            for (const std::uint32_t i : batch.paths()) {
+                const float distance = shadows[i].tfar;
+                shadows[i].tfar = -1;
+                if (distance > 0) add_light(view, i, distance);
+            }
+        }
+        batch.clear();
     }
     return traced;
+}
+
+// Adds the light unless something blocks it, or what might is undecided.
+void WaveHits::occluded_undecided(const View& view, std::uint32_t i, Undecided& undecided) {
+    shared::ShadowRay& shadow = wave_.shadows()[i];
+    const float distance = shadow.tfar;
+    const std::size_t first = undecided.hits.size();
+    view.embree.occluded(shadow, &undecided.hits);
+    const bool is_free = shadow.tfar > 0;
+    shadow.tfar = -1;
+    if (!is_free) undecided.hits.resize(first);
+    if (undecided.hits.size() > first)
+        undecided.open.push_back({i, true, distance, first, undecided.hits.size() - first});
+    else if (is_free)
+        add_light(view, i, distance);
 }
 
 // The type that shades this hit or miss. `material`: of a hit, if already known.
@@ -126,27 +157,36 @@ std::uint32_t WaveHits::trace_closest(const View& view, std::span<const std::uin
                                       Undecided* undecided) {
     const auto rays = wave_.rays();
     std::uint32_t traced = 0;
+    Batch batch;
     for (std::size_t a = 0; a < active.size(); ++a) {
         if (a + ahead < active.size()) {
             __builtin_prefetch(&rays[active[a + ahead]]);
             __builtin_prefetch(&rays[active[a + ahead]].u);
         }
         const std::uint32_t i = active[a];
-        std::uint8_t type = type_none;
         emits_[i] = 0;
         if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
-            ++traced;
             if (!casters_.empty()) note_caster(view, i);
             ray.geom = ray.inst = NONE;
-            if (undecided && intersect_undecided(view, i, *undecided)) continue;
-            if (!undecided) view.embree.intersect(ray);
-            type = shader_of(view, i);
-            count[WaveMemory::type_emit] += emits_[i];
+            batch.add(i);
+        } else {
+            types_[i] = type_none;
+            ++count[type_none];
         }
-        types_[i] = type;
-        ++count[type];
+        if (!batch.full() && a + 1 < active.size()) continue;
+        traced += std::uint32_t(batch.paths().size());
+        if (!undecided) view.embree.intersect(rays, batch.paths());
+        for (const std::uint32_t k : batch.paths())
+            if (!undecided || !intersect_undecided(view, k, *undecided)) give_type(view, k, count);
+        batch.clear();
     }
     return traced;
+}
+
+void WaveHits::give_type(const View& view, std::uint32_t i, TypeCounts& count, std::optional<std::uint32_t> material) {
+    types_[i] = shader_of(view, i, material);
+    ++count[types_[i]];
+    count[WaveMemory::type_emit] += emits_[i];
 }
 
 // Finds the nearest hit, and undecided ones in front of it. Returns whether there are any.
@@ -162,8 +202,7 @@ bool WaveHits::intersect_undecided(const View& view, std::uint32_t i, Undecided&
     if (ray.inst != NONE && view.scene.undecided(ray.inst)) // a mix without gaps: nothing filters its mesh
         hits.push_back({ray.tfar, ray.inst, ray.prim, {ray.u, ray.v}, ray.prim});
     if (hits.size() == first) return false;
-    std::sort(hits.begin() + std::ptrdiff_t(first), hits.end(),
-              [](const auto& a, const auto& b) { return a.t < b.t; });
+    std::sort(hits.begin() + std::ptrdiff_t(first), hits.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
     undecided.open.push_back({.path = i, .first = first, .count = hits.size() - first});
     return true;
 }
@@ -213,10 +252,7 @@ void WaveHits::settle(const View& view, const Undecided& undecided, const shared
             ray.u = hit.bary.x, ray.v = hit.bary.y;
             material = decided[h].material;
         }
-        const std::uint8_t type = shader_of(view, open.path, material);
-        types_[open.path] = type;
-        ++count[type];
-        count[WaveMemory::type_emit] += emits_[open.path];
+        give_type(view, open.path, count, material);
     }
 }
 

@@ -60,7 +60,9 @@ class WaveHits {
     void add_light(const View&, std::uint32_t path, float distance);
     std::uint32_t trace_shadows(const View&, std::span<const std::uint32_t> active, Undecided*);
     std::uint32_t trace_closest(const View&, std::span<const std::uint32_t> active, TypeCounts&, Undecided*);
-    std::uint8_t shader_of(const View&, std::uint32_t path, std::optional<std::uint32_t> material = std::nullopt);
+    std::uint8_t shader_of(const View&, std::uint32_t path, std::optional<std::uint32_t> material);
+    void give_type(const View&, std::uint32_t path, TypeCounts&, std::optional<std::uint32_t> material = std::nullopt);
+    void occluded_undecided(const View&, std::uint32_t path, Undecided&);
     bool intersect_undecided(const View&, std::uint32_t path, Undecided&);
     void note_caster(const View&, std::uint32_t path);
     void settle(const View&, const Undecided&, const shared::HitDecided*, TypeCounts&);

@@ -101,7 +101,7 @@ float quadric_offset(InstanceData inst, QuadricData q, vec3 p, vec3 w, vec3 n) {
     float reach = q.kind == QUADRIC_DISK ? abs(q.z_min) : q.radius;
     // The refined point: gamma(5); |o| - r of a ray that starts there: as much again.
     vec3 extent = vec3(10.0 * reach);
-    return ray_offset(vec3(0), extent * (1.0 / 3.0), vec3(0), p, w, inst.object_to_world, inst.normal_to_world, n);
+    return ray_offset(vec3(0), extent * (1.0 / 3.0), vec3(0), p, w, inst.object_to_world, inst.normal_to_world, n, 0.0);
 }
 
 // ---- as lights ------------------------------------------------------------------------------------------------------

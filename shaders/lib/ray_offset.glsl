@@ -8,16 +8,23 @@
 
 const float EPS = 5.9604645e-8; // 2^-24, half an ulp at 1
 
+// The intersector's plane: 4 roundings of each component of the edges' cross product tilt it about a corner; but for
+// slivers this is no more than 3 of the edges. Nothing, if the triangle lies along two axes. In units of EPS, along the
+// normal; d: from the corner to the point.
+float plane_tilt(vec3 e1, vec3 e2, vec3 d) {
+    vec3 extent = abs(e1) + abs(e2);
+    vec3 products = abs(e1.yzx * e2.zxy) + abs(e1.zxy * e2.yzx);
+    float tilt = 4.0 * dot(abs(d), products) / max(length(cross(e1, e2)), 1e-37);
+    return min(tilt, 3.0 * max(extent.x, max(extent.y, extent.z)));
+}
+
 // Distance along the unit geometric normal that keeps a ray off the triangle.
 //   p0, e1, e2: the triangle in object space; p: the point there; w: in world space
 //   m: object to world; n: unit world normal; nw: transposed inverse of m's linear part (rows of the inverse)
-float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, vec3 n) {
+//   world_copy: 1 if rays meet a copy of the triangle in world space, else 0
+float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, vec3 n, float world_copy) {
     vec3 extent = abs(e1) + abs(e2);
-    // The intersector's plane: 4 roundings of each component of the edges' cross product tilt it about p0; but for slivers
-    // this is no more than 3 of the edges. Nothing, if the triangle lies along two axes.
-    vec3 products = abs(e1.yzx * e2.zxy) + abs(e1.zxy * e2.yzx);
-    float tilt = 4.0 * dot(abs(p - p0), products) / max(length(cross(e1, e2)), 1e-37);
-    tilt = min(tilt, 3.0 * max(extent.x, max(extent.y, extent.z)));
+    float tilt = plane_tilt(e1, e2, p - p0);
     // To world: gamma(3) of the products, 2 eps of the translation.
     mat3 lin = mat3(m[0], m[1], m[2]);
     mat3 abs_lin = mat3(abs(m[0]), abs(m[1]), abs(m[2]));
@@ -30,6 +37,13 @@ float ray_offset(vec3 p0, vec3 e1, vec3 e2, vec3 p, vec3 w, mat4x3 m, mat3 nw, v
     // by |n*lin| times its move along its normal. Interpolation: 3 roundings on the edges' extent, 1 on the sum with p0.
     vec3 along = abs(n * lin);
     float edges = EPS * max(3.0 * dot(along, extent), tilt * length(along));
+    if (world_copy > 0.0) {
+        // The copy's corners are rounded once: EPS of w, which object_error has to spare, as nothing is transformed back,
+        // and of their distance from w, the edges. Each corner minus the origin is rounded, too, and their product
+        // with the normal has 3 roundings: together 5 of the edges.
+        vec3 w1 = lin * e1, w2 = lin * e2;
+        edges += EPS * (5.0 * dot(abs(n), abs(w1) + abs(w2)) + plane_tilt(w1, w2, lin * (p - p0)));
+    }
     return dot(abs(n), world_error) + dot(along, object_error) + edges;
 }
 

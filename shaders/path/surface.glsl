@@ -154,7 +154,8 @@ Surface make_surface(SceneData scene, InstanceData inst, MaterialData material, 
     s.p = refined_hit(inst, e1, e2, s.p, ng, origin, direction, t);
     if (!shaded) s.ns = ng;
     s.offset = scene.ray_epsilon > 0.0 ? scene.ray_epsilon
-                                       : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng);
+                                       : ray_offset(p0, e1, e2, p, s.p, inst.object_to_world, inst.normal_to_world, ng,
+                                                    scene.world_copies);
 
     vec2 uv = bary;
     vec2 duv1 = vec2(1, 0), duv2 = vec2(0, 1);

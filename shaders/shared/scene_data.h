@@ -205,6 +205,8 @@ struct SceneData {
     uint camera_medium;
     float clamp_direct, clamp_indirect; // 0 = off
     float ray_epsilon; // 0 = error bounds
+    float world_copies; // 1: rays meet copies of the triangles in world space; the tracer's (WavePush), 0 in the stored
+                        // scene
     vec3 world_origin; // of the kernels' world space, in scene space
 };
 

@@ -26,7 +26,7 @@ struct WavePush { // 128 bytes: the minimum guaranteed by Vulkan
     address lights;
     address light_nodes;
     uint queue_first, queue_count;
-    uint pad0;
+    float world_copies;
     uint max_depth;
     uint russian_roulette;
     float clamp_direct, clamp_indirect;

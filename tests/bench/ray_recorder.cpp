@@ -16,21 +16,29 @@
 #include <mutex>
 
 #if RESTAGE_EMBREE_MAJOR == 3
-#define INTERSECT_ARGS RTCScene scene, RTCIntersectContext *context, RTCRayHit *ray
-#define OCCLUDED_ARGS RTCScene scene, RTCIntersectContext *context, RTCRay *ray
+#define INTERSECT_ARGS(size) RTCScene scene, RTCIntersectContext *context, RTCRayHit##size *ray
+#define OCCLUDED_ARGS(size) RTCScene scene, RTCIntersectContext *context, RTCRay##size *ray
 #define FORWARD scene, context, ray
 #else
-#define INTERSECT_ARGS RTCScene scene, RTCRayHit *ray, RTCIntersectArguments *args
-#define OCCLUDED_ARGS RTCScene scene, RTCRay *ray, RTCOccludedArguments *args
+#define INTERSECT_ARGS(size) RTCScene scene, RTCRayHit##size *ray, RTCIntersectArguments *args
+#define OCCLUDED_ARGS(size) RTCScene scene, RTCRay##size *ray, RTCOccludedArguments *args
 #define FORWARD scene, ray, args
 #endif
 
 // NOLINTBEGIN(bugprone-reserved-identifier): required by the linker's --wrap
 extern "C" {
-void __real_rtcIntersect1(INTERSECT_ARGS);
-void __real_rtcOccluded1(OCCLUDED_ARGS);
-void __wrap_rtcIntersect1(INTERSECT_ARGS);
-void __wrap_rtcOccluded1(OCCLUDED_ARGS);
+void __real_rtcIntersect1(INTERSECT_ARGS());
+void __real_rtcOccluded1(OCCLUDED_ARGS());
+void __wrap_rtcIntersect1(INTERSECT_ARGS());
+void __wrap_rtcOccluded1(OCCLUDED_ARGS());
+#define DECLARE_PACKETS(size)                                               \
+    void __real_rtcIntersect##size(const int* valid, INTERSECT_ARGS(size)); \
+    void __real_rtcOccluded##size(const int* valid, OCCLUDED_ARGS(size));   \
+    void __wrap_rtcIntersect##size(const int* valid, INTERSECT_ARGS(size)); \
+    void __wrap_rtcOccluded##size(const int* valid, OCCLUDED_ARGS(size));
+DECLARE_PACKETS(8)
+DECLARE_PACKETS(16)
+#undef DECLARE_PACKETS
 RTCScene __real_rtcNewScene(RTCDevice);
 RTCScene __wrap_rtcNewScene(RTCDevice);
 }
@@ -58,6 +66,18 @@ std::vector<RecordedRay>& my_list() {
 void note(RTCScene scene, const RTCRay& r, bool shadow) {
     traced_scene = scene;
     my_list().push_back({{r.org_x, r.org_y, r.org_z}, r.tnear, {r.dir_x, r.dir_y, r.dir_z}, r.tfar, shadow});
+}
+
+template <int size, class Rays>
+void note_packet(RTCScene scene, const int* valid, const Rays& r, bool shadow) {
+    traced_scene = scene;
+    for (int k = 0; k < size; ++k)
+        if (valid[k])
+            my_list().push_back({{r.org_x[k], r.org_y[k], r.org_z[k]},
+                                 r.tnear[k],
+                                 {r.dir_x[k], r.dir_y[k], r.dir_z[k]},
+                                 r.tfar[k],
+                                 shadow});
 }
 
 RTCRay embree_ray(const RecordedRay& r) {
@@ -124,14 +144,28 @@ std::uint64_t trace_plainly(const std::vector<RecordedRay>& rays, Jobs& jobs) {
 
 // NOLINTBEGIN(bugprone-reserved-identifier): required by the linker's --wrap
 extern "C" {
-void __wrap_rtcIntersect1(INTERSECT_ARGS) {
+void __wrap_rtcIntersect1(INTERSECT_ARGS()) {
     if (restage::bench::recording.load(std::memory_order_relaxed)) restage::bench::note(scene, ray->ray, false);
     __real_rtcIntersect1(FORWARD);
 }
-void __wrap_rtcOccluded1(OCCLUDED_ARGS) {
+void __wrap_rtcOccluded1(OCCLUDED_ARGS()) {
     if (restage::bench::recording.load(std::memory_order_relaxed)) restage::bench::note(scene, *ray, true);
     __real_rtcOccluded1(FORWARD);
 }
+#define WRAP_PACKETS(size)                                                    \
+    void __wrap_rtcIntersect##size(const int* valid, INTERSECT_ARGS(size)) {  \
+        if (restage::bench::recording.load(std::memory_order_relaxed))        \
+            restage::bench::note_packet<size>(scene, valid, ray->ray, false); \
+        __real_rtcIntersect##size(valid, FORWARD);                            \
+    }                                                                         \
+    void __wrap_rtcOccluded##size(const int* valid, OCCLUDED_ARGS(size)) {    \
+        if (restage::bench::recording.load(std::memory_order_relaxed))        \
+            restage::bench::note_packet<size>(scene, valid, *ray, true);      \
+        __real_rtcOccluded##size(valid, FORWARD);                             \
+    }
+WRAP_PACKETS(8)
+WRAP_PACKETS(16)
+#undef WRAP_PACKETS
 RTCScene __wrap_rtcNewScene(RTCDevice device) {
     ++restage::bench::scenes_made;
     return __real_rtcNewScene(device);
