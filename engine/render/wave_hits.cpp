@@ -162,8 +162,7 @@ bool WaveHits::intersect_undecided(const View& view, std::uint32_t i, Undecided&
     if (ray.inst != NONE && view.scene.undecided(ray.inst)) // a mix without gaps: nothing filters its mesh
         hits.push_back({ray.tfar, ray.inst, ray.prim, {ray.u, ray.v}, ray.prim});
     if (hits.size() == first) return false;
-    std::sort(hits.begin() + std::ptrdiff_t(first), hits.end(),
-              [](const auto& a, const auto& b) { return a.t < b.t; });
+    std::sort(hits.begin() + std::ptrdiff_t(first), hits.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
     undecided.open.push_back({.path = i, .first = first, .count = hits.size() - first});
     return true;
 }
