@@ -52,10 +52,10 @@ void make_tables(EnvironmentMap& map, scene::Mapping mapping) {
     map.rows = make_cdf(rows);
 }
 
-// Share of the power in the brightest `angle` sr. weight: of each texel [luminance times its row's solid angle], all in units
-// of which `total` are the sphere.
-double brightest(const std::vector<double>& weights, const std::function<double(std::size_t)>& solid_angle, double total,
-                 double angle) {
+// Share of the power in the brightest `angle` sr. weight: of each texel [luminance times its row's solid angle], all in
+// units of which `total` are the sphere.
+double brightest(const std::vector<double>& weights, const std::function<double(std::size_t)>& solid_angle,
+                 double total, double angle) {
     struct Bin {
         double power = 0, angle = 0;
     };
@@ -123,8 +123,7 @@ EnvironmentMap make_environment_map(const scene::PixelData* image, scene::Mappin
         map.texels.clear();
         return map;
     }
-    map.focus = float(brightest(
-        weights, [&](std::size_t i) { return solid_angle(i / map.width); }, total, 0.1));
+    map.focus = float(brightest(weights, [&](std::size_t i) { return solid_angle(i / map.width); }, total, 0.1));
     if (compensate) {
         std::vector<double> brighter(n);
         double left = 0;

@@ -47,14 +47,15 @@ void Guiding::add(const PathRecords& records, std::span<const shared::SamplePick
             const float found = std::max((end.x + end.y + end.z - r.radiance - met) / r.throughput, 0.f);
             const float light = std::max(r.light / r.throughput, 0.f);
             if (!(r.pdf > 0) || !std::isfinite(found) || !std::isfinite(light) || !std::isfinite(r.pdf)) continue;
-            records_.push_back({.order = (std::uint64_t(picks[i].pixel) << 32) + (picks[i].sample_index << 4) + r.depth % 16,
-                                .position = r.origin,
-                                .normal = glm::vec3(glm::unpackSnorm4x8(r.normal)),
-                                .direction = r.direction,
-                                .radiance = r.light_pdf > 0 ? found : found + light,
-                                .light = r.light_pdf > 0 ? light : 0,
-                                .light_pdf = r.light_pdf,
-                                .pdf = r.pdf});
+            records_.push_back(
+                {.order = (std::uint64_t(picks[i].pixel) << 32) + (picks[i].sample_index << 4) + r.depth % 16,
+                 .position = r.origin,
+                 .normal = glm::vec3(glm::unpackSnorm4x8(r.normal)),
+                 .direction = r.direction,
+                 .radiance = r.light_pdf > 0 ? found : found + light,
+                 .light = r.light_pdf > 0 ? light : 0,
+                 .light_pdf = r.light_pdf,
+                 .pdf = r.pdf});
         }
     }
 }

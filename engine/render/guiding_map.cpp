@@ -78,8 +78,8 @@ std::size_t split(std::span<GuidingRecord> records, shared::GuidingNode& node) {
 
 using Histogram = std::array<double, cells>; // over the cells of the octahedral map, row by row
 
-// Each record's light, as a diffuse surface scatters it, without what light sampling finds well: of the light that a ray
-// meets directly, 1 - E^2 / M is left, by the mean E and the second moment M of light sampling alone. With nothing
+// Each record's light, as a diffuse surface scatters it, without what light sampling finds well: of the light that a
+// ray meets directly, 1 - E^2 / M is left, by the mean E and the second moment M of light sampling alone. With nothing
 // between the lamp and these places M is E^2; through a small window it is far more. 0 if little is left altogether.
 std::vector<float> guided_light(std::span<const GuidingRecord> records) {
     double mean = 0, moment = 0;
@@ -131,8 +131,8 @@ bool normalize(Histogram& h) {
     return sum > 0;
 }
 
-// The share with the least second moment of the light that a diffuse surface scatters: a map of each half of the records
-// is tried on the other.
+// The share with the least second moment of the light that a diffuse surface scatters: a map of each half of the
+// records is tried on the other.
 float best_share(std::span<const GuidingRecord> records, std::span<const float> light) {
     std::array<double, shares.size()> moments{};
     for (unsigned part = 0; part < 2; ++part) {
@@ -225,8 +225,6 @@ std::uint32_t GuidingMap::leaf_of(const glm::vec3& p, const glm::vec3& normal) c
     return nodes[at].leaf;
 }
 
-float GuidingMap::density(std::uint32_t leaf, const glm::vec3& w) const {
-    return leaves[leaf].density[cell_of(w)];
-}
+float GuidingMap::density(std::uint32_t leaf, const glm::vec3& w) const { return leaves[leaf].density[cell_of(w)]; }
 
 } // namespace restage::render

@@ -96,16 +96,16 @@ TEST_CASE("caustics: the sun of an environment image through two panes of glass"
         return mean_luminance(render_image(*renderer, b.scene, 256)).value;
     }();
     CHECK(!renderer->gpu_scene().sunny());
-    // Radiance is bilinear between the middles of texels: the sun is two by two texels, less at its edges. Four surfaces as
-    // above, each with the mean of Fresnel's two reflectances.
+    // Radiance is bilinear between the middles of texels: the sun is two by two texels, less at its edges. Four
+    // surfaces as above, each with the mean of Fresnel's two reflectances.
     const double pi = std::numbers::pi, step = 1.0 / 32;
     double expected = 0;
     for (double v = -1 + step / 2; v < 1; v += step) {
         const double theta = (row + 0.5 + v) * pi / height, c = std::cos(theta),
                      t = std::sqrt(1 - (1 - c * c) / (1.5 * 1.5));
         const double s = (c - 1.5 * t) / (c + 1.5 * t), p = (1.5 * c - t) / (1.5 * c + t), r = (s * s + p * p) / 2;
-        expected += double(sun - 0.1f) * (1 - std::abs(v)) * step * (pi / height) * (2 * pi / width) * std::sin(theta) * c *
-                    (1 - r) / (1 + 3 * r);
+        expected += double(sun - 0.1f) * (1 - std::abs(v)) * step * (pi / height) * (2 * pi / width) * std::sin(theta) *
+                    c * (1 - r) / (1 + 3 * r);
     }
     const double error = (mean - sky_alone) / (albedo / pi * expected) - 1;
     INFO("relative error " << error << ", of the sky " << sky_alone / mean);

@@ -216,8 +216,8 @@ Compared compare(void (*build)(SceneBuilder&, scene::Technique, std::uint32_t), 
 TEST_CASE("guiding: no bias, and less noise in a room behind a door ajar, and behind a small window") {
     for (const auto build : {door_ajar, small_window}) {
         const Compared c = compare(build, 64, 6);
-        INFO((build == door_ajar ? "door" : "window") << ": means " << c.mean[0] << " and " << c.mean[1] << ", z " << c.z
-                                                      << "; variances " << c.noise[0] << " and " << c.noise[1]);
+        INFO((build == door_ajar ? "door" : "window") << ": means " << c.mean[0] << " and " << c.mean[1] << ", z "
+                                                      << c.z << "; variances " << c.noise[0] << " and " << c.noise[1]);
         CHECK(std::abs(c.z) < 3);
         CHECK(c.noise[1] < (build == door_ajar ? 0.5 : 0.7) * c.noise[0]);
     }
