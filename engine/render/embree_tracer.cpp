@@ -22,9 +22,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 constexpr std::uint32_t wave_paths = WaveMemory::most_paths;
 constexpr std::size_t most_asked = 1 << 18; // undecided hits per submit
-// Triangles of a scene to be flattened. Not yet: leaks (tests/stability with 0 here) and edits of flat scenes are
-// untested. 4096 is meant: in the Cornell box, objects' bounds save more.
-const std::uint64_t flat_from = std::getenv("RG_FLAT") ? std::uint64_t(std::atoll(std::getenv("RG_FLAT"))) : 4096;
+// Triangles of a scene to be flattened. In one with fewer, the bounds of its objects save more.
+constexpr std::uint64_t flat_from = 4096;
 constexpr std::uint8_t type_emit = WaveMemory::type_emit;
 
 static_assert(sizeof(shared::WavePush) == 128);

@@ -33,7 +33,7 @@ struct Floor {
         render::GpuScene scene(renderer->device(), jobs, plugins().lookup());
         const auto changes = scene.sync(b.scene);
         REQUIRE(changes.has_value());
-        auto embree = render::EmbreeScene::create(1);
+        auto embree = render::EmbreeScene::create(1, {});
         REQUIRE(embree.has_value());
         REQUIRE((*embree)->update(scene, *changes).has_value());
         std::vector<char> casters(scene.instances().size());
