@@ -57,7 +57,8 @@ EmbreeScene::~EmbreeScene() {
 Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& changes) {
     scene_ = &scene;
     simple_ = is_simple(scene);
-    if (changes.meshes.empty() && changes.instances.empty()) return {};
+    const bool nothing_there = scene.instances().empty(); // the scene before may have been forgotten
+    if (flat_ && changes.meshes.empty() && changes.instances.empty() && !nothing_there) return {};
     if (flattening_pays(changes)) return flatten(changes);
     return flat_ ? unflatten(changes) : update_instances(changes);
 }

@@ -73,3 +73,20 @@ TEST_CASE("a flat scene is the picture of its instances, before and after edits"
         worst = std::max(worst, double(glm::length(again.color[i] - before.color[i])));
     CHECK(worst == 0);
 }
+
+TEST_CASE("an empty scene shows nothing of the one before, flat or not") {
+    auto balls = three_meshes();
+    SceneBuilder few;
+    few.set_camera({0, -9, 3}, {0, 0, 0.6}, {0, 0, 1}, 35);
+    few.instance(few.quad({-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}), few.diffuse(0.6f, 0.6f, 0.5f));
+    few.environment(glm::vec3(1));
+    for (SceneBuilder* before : {&balls, &few}) {
+        const auto renderer = make_renderer("embree");
+        render_image(*renderer, before->scene, 1);
+        SceneBuilder b;
+        b.environment(glm::vec3(1, 2, 3));
+        renderer->forget_scene();
+        for (const glm::vec3& c : render_image(*renderer, b.scene, 1).color)
+            REQUIRE((c == glm::vec3(1, 2, 3)));
+    }
+}
