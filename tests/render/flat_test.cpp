@@ -84,6 +84,7 @@ TEST_CASE("an empty scene shows nothing of the one before, flat or not") {
         const auto renderer = make_renderer("embree");
         render_image(*renderer, before->scene, 1);
         SceneBuilder b;
+        b.set_camera({0, -9, 3}, {0, 0, 0.6}, {0, 0, 1}, 35);
         b.environment(glm::vec3(1, 2, 3));
         renderer->forget_scene();
         for (const glm::vec3& c : render_image(*renderer, b.scene, 1).color)
