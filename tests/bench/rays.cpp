@@ -12,7 +12,8 @@ namespace restage::bench {
 Json measure_rays(const Options& o) {
     Plugins plugins;
     const auto renderer = plugins.renderer({.threads = o.threads});
-    const auto scene = room(5);
+    auto scene = room(5);
+    scene.settings.value.caustics = scene::Technique::off; // paths alone, as the loops below
     check(renderer->sync(scene));
     check(renderer->trace(1)); // compiles
     renderer->reset();
