@@ -78,11 +78,11 @@ std::size_t split(std::span<GuidingRecord> records, shared::GuidingNode& node) {
 
 using Histogram = std::array<double, cells>; // over the cells of the octahedral map, row by row
 
-// Each record's light, as a diffuse surface scatters it, without what light sampling finds well. Of the light that a ray
-// meets directly, 1 - E^2 / M is left, by the mean E and the second moment M of light sampling alone: with nothing between
-// the lamp and these places M is E^2, through a small window it is far more. Few rays that met light do not tell the two
-// apart, and then nothing is left. What is left has the balance heuristic's weight, as lamps shine far brighter than walls.
-// 0 if little is left altogether.
+// Each record's light, as a diffuse surface scatters it, without what light sampling finds well. Of the light that a
+// ray meets directly, 1 - E^2 / M is left, by the mean E and the second moment M of light sampling alone: with nothing
+// between the lamp and these places M is E^2, through a small window it is far more. Few rays that met light do not
+// tell the two apart, and then nothing is left. What is left has the balance heuristic's weight, as lamps shine far
+// brighter than walls. 0 if little is left altogether.
 std::vector<float> guided_light(std::span<const GuidingRecord> records) {
     double mean = 0, moment = 0, met = 0;
     for (const GuidingRecord& r : records) {

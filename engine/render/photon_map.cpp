@@ -99,7 +99,8 @@ std::uint32_t CausticPhotons::samples_per_map(std::uint32_t pixels) {
 }
 
 std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) {
-    return std::clamp(2 * pixels, 4096u, 16 * WAVE_PATHS) / 64 * 64;
+    const std::uint32_t enough = std::max(65536u, std::min(pixels / 4, 16 * WAVE_PATHS));
+    return std::clamp(2 * pixels, 4096u, enough) / 64 * 64;
 }
 
 Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> casters, bool all) {

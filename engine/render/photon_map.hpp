@@ -29,9 +29,9 @@ class CausticPhotons {
     bool active() const { return !sources_.empty(); }
     std::uint64_t address() const { return record_.address(); } // of shared::PhotonMap, once started
 
-    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. Two photons a sample:
-    // the noise of a map is common to all pixels that see the same photons, so that samples alone do not average it
-    // out.
+    // The maps of a film with so many pixels: map m is of samples [m, m + 1) * samples_per_map. Two photons a sample,
+    // as the noise of a map is common to all pixels that see the same photons, so that samples alone do not average it
+    // out; in large films, where maps cost a live picture too much, a wave of photons or a quarter a sample.
     static std::uint32_t paths_per_map(std::uint32_t pixels);
     static std::uint32_t samples_per_map(std::uint32_t pixels);
     bool has(std::uint32_t map, std::uint32_t seed) const { return whole_ && map_ == map && seed_ == seed; }
