@@ -3,7 +3,6 @@
 #include "render/embree_api.hpp"
 
 #include <fmt/format.h>
-#include <cstring>
 #include <unordered_set>
 
 namespace restage::render {
@@ -45,12 +44,13 @@ Result<void> EmbreeScene::flatten(const SceneChanges& changes) {
         const GpuMesh& mesh = *scene_->mesh(id);
         const auto& positions = scene_->mesh_data(id)->positions;
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        if (void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                     sizeof(glm::vec3), positions.size())) {
+        if (auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), positions.size()))) {
             const glm::dmat4x3 placement(scene_->placement(i)); // rounded once: lib/ray_offset.glsl
             for (std::size_t v = 0; v < positions.size(); ++v) {
-                const glm::vec3 at(placement * glm::dvec4(positions[v], 1));
-                std::memcpy(static_cast<std::byte*>(vertices) + v * sizeof at, &at, sizeof at);
+                const glm::dvec3 at = placement * glm::dvec4(positions[v], 1);
+                for (std::size_t k = 0; k < 3; ++k)
+                    vertices[3 * v + k] = float(at[int(k)]);
             }
         }
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.buffer.mapped(),

@@ -14,11 +14,11 @@ def test_differences_are_in_percent_with_their_error():
     mean, error = bias.difference([(1.01, 1.0), (2.06, 2.0)])
     assert mean == pytest.approx(2.0) and error == pytest.approx(1.0)
     row = {s: (0.5, 0.01) for s in bias.SWITCHES}
-    text = bias.table({"room": row})
+    text = bias.table({"room": row}, bias.SWITCHES)
     assert text.count("\n") == 2 and text.splitlines()[2].count("+0.50 ± 0.01") == len(bias.SWITCHES)
 
 
-def test_a_limit_darkens_and_a_render_like_the_reference_does_not(monkeypatch):
-    monkeypatch.setattr(bias, "SWITCHES", {"limit": lambda mean: ["--clamp-indirect", str(0.1 * mean)], "none": lambda mean: []})
-    row = bias.measure(ROOT / "scenes/cornell/cornell.pbrt", "16x12", 4, 2)
+def test_a_limit_darkens_and_a_render_like_the_reference_does_not():
+    switches = {"limit": lambda mean: ["--clamp-indirect", str(0.1 * mean)], "none": lambda mean: []}
+    row = bias.measure(ROOT / "scenes/cornell/cornell.pbrt", switches, "16x12", 4, 2)
     assert row["limit"][0] < -5 and row["none"] == (0, 0)
