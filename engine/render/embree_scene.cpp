@@ -24,6 +24,12 @@ bool is_simple(const GpuScene& scene) {
     return true;
 }
 
+bool is_empty(const GpuScene& scene) {
+    for (std::uint32_t i = 0; i < scene.instances().size(); ++i)
+        if (scene.traced(i)) return false;
+    return true;
+}
+
 } // namespace
 
 Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, Use use) {
@@ -57,8 +63,8 @@ EmbreeScene::~EmbreeScene() {
 Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& changes) {
     scene_ = &scene;
     simple_ = is_simple(scene);
-    const bool nothing_there = scene.instances().empty(); // the scene before may have been forgotten
-    if (flat_ && changes.meshes.empty() && changes.instances.empty() && !nothing_there) return {};
+    const bool changed = !changes.meshes.empty() || !changes.instances.empty();
+    if (flat_ && !changed && !is_empty(scene)) return {}; // an empty one has no changes, but the flat one was forgotten
     if (flattening_pays(changes)) return flatten(changes);
     return flat_ ? unflatten(changes) : update_instances(changes);
 }
