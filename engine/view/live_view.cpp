@@ -308,7 +308,7 @@ struct LiveView::Impl {
         double said = 0; // [s]
         auto traced = renderer.trace(1, [&] {
             const double now_at = seconds_since(start);
-            const auto compiling = !work.pictured && now_at > said + 0.1 ? renderer.compiling() : std::nullopt;
+            const auto compiling = now_at > said + 0.1 ? renderer.compiling() : std::nullopt;
             {
                 std::lock_guard lock(mutex);
                 stopped = stop || ((mail || new_options) && (!first || (!work.pictured && now_at > compile_patience)));
