@@ -13,7 +13,7 @@ PathState path_begin(SceneRef scene, FrameData frame, uint pixel, uint sample_in
     bool twin = xy.y >= frame.crop_height;
     if (twin) xy.y = twin_of(xy.x, xy.y - frame.crop_height, frame.crop_height);
     xy += uvec2(frame.crop_x, frame.crop_y);
-    uint seed = pixel_seed(xy.y * scene.scene.camera.width + xy.x, twin, frame.seed);
+    uint seed = pixel_seed(xy, twin, frame.seed);
     float weight;
     vec2 offset = filter_sample(scene.scene.filter_, sample_pair(seed, sample_index, PAIR_FILTER), weight);
     vec2 u_lens = HAS_LENS ? sample_pair(seed, sample_index, PAIR_LENS) : vec2(0.5);
