@@ -345,6 +345,8 @@ void add_render(CLI::App& program, Context& context) {
     command->add_option("--statistics", o->statistics, "Write time, rays, samples and error as JSON (- = stdout)")
         ->type_name("FILE");
     command->add_flag("--strict", o->strict, strict_help);
+    // For tests/bench/needs.py, not for users: not in --help.
+    command->add_flag("--all-features", o->renderer.all_features)->group("");
     add_render_options(*command, *o);
     resume->excludes(command->get_option("--error"));
     command

@@ -34,6 +34,7 @@ struct EmbreeQuery {
     bool borders = false;        // query hits borders of media, not surfaces
     bool shadow = false;         // query hits surfaces that block light
     glm::vec3 origin, direction; // of a single ray in world space: Embree transforms it to instance space
+    std::span<const std::uint32_t> names; // see EmbreeInstances::Part
     std::vector<EmbreeScene::Undecided>* undecided = nullptr; // null: undecidable hits are decided by averages
 
     EmbreeQuery() {
@@ -43,6 +44,7 @@ struct EmbreeQuery {
         rtcInitRayQueryContext(&embree);
 #endif
     }
+    std::uint32_t instance() const { return names.empty() ? embree.instID[0] : names[embree.instID[0]]; } // being met
 };
 
 // Cut-outs, lamps without a surface, and mixes with a null component: called for candidate hits of meshes that some

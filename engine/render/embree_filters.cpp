@@ -28,9 +28,10 @@ bool passes_filter(const GpuScene& scene, const EmbreeQuery& query, unsigned ins
 }
 
 // Intersects the quadric of Embree's current instance.
-std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, unsigned instance, glm::vec2 range) {
+std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, glm::vec2 range) {
     const auto& scene = **static_cast<const GpuScene* const*>(user);
     const auto& query = *static_cast<const EmbreeQuery*>(context);
+    const std::uint32_t instance = query.instance();
     GpuScene::QuadricHit hits[2];
     const int n = scene.meet_quadric(instance, query.origin, query.direction, range, hits);
     for (int i = 0; i < n; ++i) // the far one if the near one lets rays pass
@@ -44,20 +45,19 @@ std::optional<GpuScene::QuadricHit> meet(const void* user, const void* context, 
 void box_intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[0] != -1) return;
     auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-    const unsigned instance = args->context->instID[0];
-    const auto hit = meet(args->geometryUserPtr, args->context, instance, {ray.ray.tnear, ray.ray.tfar});
+    const auto hit = meet(args->geometryUserPtr, args->context, {ray.ray.tnear, ray.ray.tfar});
     if (!hit) return;
     ray.ray.tfar = hit->t;
     ray.hit.u = hit->uv.x;
     ray.hit.v = hit->uv.y;
     ray.hit.primID = 0;
     ray.hit.geomID = 0;
-    ray.hit.instID[0] = instance;
+    ray.hit.instID[0] = args->context->instID[0];
 }
 void box_occluded(const RTCOccludedFunctionNArguments* args) {
     if (args->valid[0] != -1) return;
     auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-    if (meet(args->geometryUserPtr, args->context, args->context->instID[0], {ray.tnear, ray.tfar}))
+    if (meet(args->geometryUserPtr, args->context, {ray.tnear, ray.tfar}))
         ray.tfar = -std::numeric_limits<float>::infinity();
 }
 void box_bounds(const RTCBoundsFunctionArguments* args) { *args->bounds_o = {-1, -1, -1, 0, 1, 1, 1, 0}; }
@@ -71,7 +71,7 @@ void embree_hit_filter(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] != -1) continue;
         const unsigned n = args->N;
-        const unsigned instance = args->context->instID[0], prim = RTCHitN_primID(args->hit, n, i);
+        const unsigned instance = query.instance(), prim = RTCHitN_primID(args->hit, n, i);
         const glm::vec2 bary(RTCHitN_u(args->hit, n, i), RTCHitN_v(args->hit, n, i));
         const auto flags = scene->instances()[instance].flags;
         if (put_aside(*scene, query, {RTCRayN_tfar(args->ray, n, i), instance, prim, bary, prim})) {

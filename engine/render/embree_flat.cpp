@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // EmbreeScene without instances: every triangle in world space, in one hierarchy.
-#include "render/embree_api.hpp"
+#include "render/embree_instances.hpp"
 
 #include <fmt/format.h>
 #include <unordered_set>
@@ -9,7 +9,7 @@ namespace restage::render {
 
 // Only a scene that is new as a whole: what is edited has instances, so that moving an object stays cheap.
 bool EmbreeScene::flattening_pays(const SceneChanges& changes) const {
-    if (use_.flat_from == never || !simple_) return false;
+    if (use_.flat_from == never || !scene_->plain_hits()) return false;
     std::unordered_set<std::uint32_t> fresh, used;
     for (auto id : changes.meshes)
         fresh.insert(id.value);
@@ -28,10 +28,7 @@ bool EmbreeScene::flattening_pays(const SceneChanges& changes) const {
 Result<void> EmbreeScene::flatten(const SceneChanges& changes) {
     // Nothing of the instances is needed, and all of their meshes are replaced.
     if (flat_) rtcReleaseScene(flat_);
-    for (std::size_t i = 0; i < surfaces_.attached.size(); ++i)
-        if (surfaces_.attached[i]) rtcDetachGeometry(surfaces_.scene, unsigned(i));
-    surfaces_.attached.clear();
-    rtcCommitScene(surfaces_.scene);
+    surfaces_ = std::make_unique<EmbreeInstances>(device_);
     for (auto id : changes.meshes)
         meshes_.erase(id.value);
     not_built_.insert(not_built_.end(), changes.meshes.begin(), changes.meshes.end());
@@ -60,9 +57,7 @@ Result<void> EmbreeScene::flatten(const SceneChanges& changes) {
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(flat_);
-    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-        return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
-    return {};
+    return check("the scene");
 }
 
 Result<void> EmbreeScene::unflatten(const SceneChanges& changes) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Queries of EmbreeScene.
-#include "render/embree_api.hpp"
+#include "render/embree_instances.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace restage::render {
 
@@ -27,71 +28,100 @@ bool can_be_asked(const glm::vec3& origin, const glm::vec3& direction, float nea
     return (near >= 0) & (near <= far) & (far_out <= reach) & (steep <= 1e3f);
 }
 
+void ask(const EmbreeInstances::Part& part, EmbreeQuery& query, shared::RayHit& ray) {
+    query.names = part.names;
+    ray.mask = part.mask;
+#if RESTAGE_EMBREE_MAJOR == 3
+    rtcIntersect1(part.scene, &query.embree, reinterpret_cast<RTCRayHit*>(&ray));
+#else
+    RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &query.embree;
+    rtcIntersect1(part.scene, reinterpret_cast<RTCRayHit*>(&ray), &args);
+#endif
+}
+
+void ask(const EmbreeInstances::Part& part, EmbreeQuery& query, shared::ShadowRay& ray) {
+    query.names = part.names;
+    ray.mask = part.mask;
+#if RESTAGE_EMBREE_MAJOR == 3
+    rtcOccluded1(part.scene, &query.embree, reinterpret_cast<RTCRay*>(&ray));
+#else
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &query.embree;
+    rtcOccluded1(part.scene, reinterpret_cast<RTCRay*>(&ray), &args);
+#endif
+}
+
 // Packets. Embree is told nothing of coherence: then it traverses for one ray after the other, so that among hits at
 // one distance the choice does not depend on the other rays.
 template <int size>
 struct Packet;
-#if RESTAGE_EMBREE_MAJOR == 3
-#define RESTAGE_ASK(query, scene, context, rays) \
-    EmbreeQuery context;                         \
-    query(valid, scene, &(context).embree, rays)
-#else
-#define RESTAGE_ASK(query, scene, context, rays) query(valid, scene, rays, nullptr)
-#endif
 template <>
 struct Packet<8> {
     using Hits = RTCRayHit8;
     using Rays = RTCRay8;
-    static void intersect(const int* valid, RTCScene scene, Hits& hits) {
-        RESTAGE_ASK(rtcIntersect8, scene, context, &hits);
-    }
-    static void occluded(const int* valid, RTCScene scene, Rays& rays) {
-        RESTAGE_ASK(rtcOccluded8, scene, context, &rays);
-    }
+    static constexpr auto intersect = rtcIntersect8;
+    static constexpr auto occluded = rtcOccluded8;
 };
 template <>
 struct Packet<16> {
     using Hits = RTCRayHit16;
     using Rays = RTCRay16;
-    static void intersect(const int* valid, RTCScene scene, Hits& hits) {
-        RESTAGE_ASK(rtcIntersect16, scene, context, &hits);
-    }
-    static void occluded(const int* valid, RTCScene scene, Rays& rays) {
-        RESTAGE_ASK(rtcOccluded16, scene, context, &rays);
-    }
+    static constexpr auto intersect = rtcIntersect16;
+    static constexpr auto occluded = rtcOccluded16;
 };
-#undef RESTAGE_ASK
 
-template <class Rays, class Ray>
-void put(Rays& rays, std::size_t k, const Ray& ray) {
-    rays.org_x[k] = ray.origin.x, rays.org_y[k] = ray.origin.y, rays.org_z[k] = ray.origin.z;
-    rays.dir_x[k] = ray.direction.x, rays.dir_y[k] = ray.direction.y, rays.dir_z[k] = ray.direction.z;
-    rays.tnear[k] = ray.tnear, rays.tfar[k] = ray.tfar;
-    rays.time[k] = 0, rays.mask[k] = ray.mask, rays.id[k] = 0, rays.flags[k] = 0;
+template <class Rays>
+void ask(void (*query)(const int*, RTCScene, EmbreeQuery::Context*, Rays*), const int* valid, RTCScene scene,
+         Rays& rays) {
+    EmbreeQuery context;
+    query(valid, scene, &context.embree, &rays);
+}
+template <class Rays, class Arguments> // Embree 4
+void ask(void (*query)(const int*, RTCScene, Rays*, Arguments*), const int* valid, RTCScene scene, Rays& rays) {
+    query(valid, scene, &rays, nullptr);
+}
+
+// The first of `which`, which are taken from it, as a packet. Those that cannot be asked are not valid.
+template <int size, class Rays, class Ray>
+std::span<const std::uint32_t> gather(Rays& packet, int (&valid)[size], std::span<Ray> rays,
+                                      std::span<const std::uint32_t>& which, unsigned mask, float reach) {
+    const auto taken = which.first(std::min<std::size_t>(size, which.size()));
+    which = which.subspan(taken.size());
+    for (std::size_t k = 0; k < size; ++k) {
+        const Ray& ray = rays[taken[std::min(k, taken.size() - 1)]];
+        const bool asked = can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach);
+        valid[k] = k < taken.size() && asked ? -1 : 0;
+        packet.org_x[k] = ray.origin.x, packet.org_y[k] = ray.origin.y, packet.org_z[k] = ray.origin.z;
+        packet.dir_x[k] = ray.direction.x, packet.dir_y[k] = ray.direction.y, packet.dir_z[k] = ray.direction.z;
+        packet.tnear[k] = ray.tnear, packet.tfar[k] = ray.tfar;
+        packet.time[k] = 0, packet.mask[k] = mask, packet.id[k] = 0, packet.flags[k] = 0;
+    }
+    return taken;
 }
 
 } // namespace
 
-void EmbreeScene::intersect(RTCSceneTy* scene, bool borders, shared::RayHit& ray,
-                            std::vector<Undecided>* undecided) const {
+void EmbreeScene::intersect_instances(const EmbreeInstances& instances, shared::RayHit& ray,
+                                      std::vector<Undecided>* undecided) const {
     if (!can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_)) return;
-    EmbreeQuery context;
-    context.borders = borders;
-    context.undecided = undecided;
-    context.origin = ray.origin;
-    context.direction = ray.direction;
-#if RESTAGE_EMBREE_MAJOR == 3
-    rtcIntersect1(scene, &context.embree, reinterpret_cast<RTCRayHit*>(&ray));
-#else
-    RTCIntersectArguments args;
-    rtcInitIntersectArguments(&args);
-    args.context = &context.embree;
-    rtcIntersect1(scene, reinterpret_cast<RTCRayHit*>(&ray), &args);
-#endif
+    EmbreeQuery query;
+    query.borders = &instances == borders_.get();
+    query.undecided = undecided;
+    query.origin = ray.origin;
+    query.direction = ray.direction;
+    ask(flat_ && !query.borders ? EmbreeInstances::Part{flat_, ~0u, {}} : instances.all(), query, ray);
+    if (!instances.apart()) return;
+    const std::uint32_t found = std::exchange(ray.inst, NONE);
+    const auto edited = instances.edited();
+    ask(edited, query, ray);
+    ray.inst = ray.inst == NONE ? found : edited.names[ray.inst];
 }
 
 void EmbreeScene::intersect(shared::RayHit& ray, std::vector<Undecided>* undecided) const {
-    intersect(surfaces(), false, ray, undecided);
+    intersect_instances(*surfaces_, ray, undecided);
     if (flat_) ray.inst = ray.geom;
 }
 
@@ -104,11 +134,10 @@ EmbreeScene::Passed EmbreeScene::pass_borders(const Stretch& stretch, std::uint3
     ray.origin = stretch.origin;
     ray.direction = direction;
     ray.tnear = t;
-    ray.mask = ~0u;
     for (;;) {
         ray.tfar = stretch.t_end;
         ray.geom = ray.inst = NONE;
-        intersect(borders_.scene, true, ray, nullptr);
+        intersect_instances(*borders_, ray, nullptr);
         depth += scene_->absorption(medium, hero) * (ray.tfar - t);
         if (ray.inst == NONE) return {glm::exp(-depth), medium};
         medium = scene_->medium_behind(ray.inst, ray.prim, {ray.u, ray.v}, direction);
@@ -123,39 +152,27 @@ void EmbreeScene::occluded(shared::ShadowRay& shadow, std::vector<Undecided>* un
         shadow.tfar = -INFINITY; // an invalid ray carries no light
         return;
     }
-    EmbreeQuery context;
-    context.shadow = true;
-    context.undecided = undecided;
-    context.origin = shadow.origin;
-    context.direction = shadow.direction;
-#if RESTAGE_EMBREE_MAJOR == 3
-    rtcOccluded1(surfaces(), &context.embree, reinterpret_cast<RTCRay*>(&shadow));
-#else
-    RTCOccludedArguments args;
-    rtcInitOccludedArguments(&args);
-    args.context = &context.embree;
-    rtcOccluded1(surfaces(), reinterpret_cast<RTCRay*>(&shadow), &args);
-#endif
+    EmbreeQuery query;
+    query.shadow = true;
+    query.undecided = undecided;
+    query.origin = shadow.origin;
+    query.direction = shadow.direction;
+    ask(flat_ ? EmbreeInstances::Part{flat_, ~0u, {}} : surfaces_->all(), query, shadow);
+    if (surfaces_->apart() && shadow.tfar >= 0) ask(surfaces_->edited(), query, shadow);
 }
 
 template <int size>
 void EmbreeScene::intersect_packets(std::span<shared::RayHit> rays, std::span<const std::uint32_t> which) const {
     alignas(64) typename Packet<size>::Hits packet;
     alignas(64) int valid[size];
-    for (; !which.empty(); which = which.subspan(std::min<std::size_t>(size, which.size()))) {
-        const std::size_t n = std::min<std::size_t>(size, which.size());
-        for (std::size_t k = 0; k < size; ++k) {
-            const shared::RayHit& ray = rays[which[std::min(k, n - 1)]];
-            valid[k] = k < n && can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_) ? -1 : 0;
-            put(packet.ray, k, ray);
-            packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-        }
-        Packet<size>::intersect(valid, surfaces(), packet);
-        for (std::size_t k = 0; k < n; ++k) {
-            shared::RayHit& ray = rays[which[k]];
-            ray.geom = packet.hit.geomID[k];
+    while (!which.empty()) {
+        const auto taken = gather(packet.ray, valid, rays, which, ~0u, reach_);
+        std::fill_n(packet.hit.geomID, size, RTC_INVALID_GEOMETRY_ID);
+        ask(Packet<size>::intersect, valid, flat_, packet);
+        for (std::size_t k = 0; k < taken.size(); ++k) {
+            shared::RayHit& ray = rays[taken[k]];
+            ray.geom = ray.inst = packet.hit.geomID[k];
             if (ray.geom == RTC_INVALID_GEOMETRY_ID) continue;
-            ray.inst = flat_ ? ray.geom : packet.hit.instID[0][k];
             ray.tfar = packet.ray.tfar[k];
             ray.prim = packet.hit.primID[k];
             ray.u = packet.hit.u[k], ray.v = packet.hit.v[k];
@@ -165,20 +182,24 @@ void EmbreeScene::intersect_packets(std::span<shared::RayHit> rays, std::span<co
 
 template <int size>
 void EmbreeScene::occluded_packets(std::span<shared::ShadowRay> rays, std::span<const std::uint32_t> which) const {
+    const auto all = flat_ ? EmbreeInstances::Part{flat_, ~0u, {}} : surfaces_->all();
     alignas(64) typename Packet<size>::Rays packet;
     alignas(64) int valid[size];
-    for (; !which.empty(); which = which.subspan(std::min<std::size_t>(size, which.size()))) {
-        const std::size_t n = std::min<std::size_t>(size, which.size());
-        for (std::size_t k = 0; k < size; ++k) {
-            const shared::ShadowRay& ray = rays[which[std::min(k, n - 1)]];
-            const bool asked = can_be_asked(ray.origin, ray.direction, ray.tnear, ray.tfar, reach_);
-            valid[k] = k < n && asked ? -1 : 0;
-            put(packet, k, ray);
-            if (!asked) packet.tfar[k] = -INFINITY; // an invalid ray carries no light
+    while (!which.empty()) {
+        const auto taken = gather(packet, valid, rays, which, all.mask, reach_);
+        for (std::size_t k = 0; k < size; ++k)
+            if (!valid[k]) packet.tfar[k] = -INFINITY; // an invalid ray carries no light
+        ask(Packet<size>::occluded, valid, all.scene, packet);
+        if (surfaces_->apart()) {
+            const auto edited = surfaces_->edited();
+            for (std::size_t k = 0; k < size; ++k) {
+                if (!(packet.tfar[k] >= 0)) valid[k] = 0;
+                packet.mask[k] = edited.mask;
+            }
+            ask(Packet<size>::occluded, valid, edited.scene, packet);
         }
-        Packet<size>::occluded(valid, surfaces(), packet);
-        for (std::size_t k = 0; k < n; ++k)
-            rays[which[k]].tfar = packet.tfar[k];
+        for (std::size_t k = 0; k < taken.size(); ++k)
+            rays[taken[k]].tfar = packet.tfar[k];
     }
 }
 
@@ -192,8 +213,9 @@ void EmbreeScene::intersect(std::span<shared::RayHit> rays, std::span<const std:
 }
 
 void EmbreeScene::occluded(std::span<shared::ShadowRay> rays, std::span<const std::uint32_t> which) const {
-    if (simple_ && packet_size_ == 16) return occluded_packets<16>(rays, which);
-    if (simple_ && packet_size_ == 8) return occluded_packets<8>(rays, which);
+    const bool simple = scene_ && scene_->plain_hits();
+    if (simple && packet_size_ == 16) return occluded_packets<16>(rays, which);
+    if (simple && packet_size_ == 8) return occluded_packets<8>(rays, which);
     for (const std::uint32_t i : which)
         occluded(rays[i]);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/embree_api.hpp"
+#include "render/embree_instances.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <unordered_set>
+#include <utility>
 
 namespace restage::render {
 
@@ -13,24 +15,9 @@ namespace {
 // Embree asserts that coordinates, in object space too, are below its FLT_LARGE, 1.844e18.
 constexpr float largest_coordinate = 5e17f; // of a point before three products are summed
 
-bool has_plain_hits(const GpuScene& scene, std::uint32_t instance) {
-    return !(scene.instances()[instance].flags &
-             (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES | INSTANCE_QUADRIC));
-}
-
-bool is_simple(const GpuScene& scene) {
-    for (std::uint32_t i = 0; i < scene.instances().size(); ++i)
-        if (scene.traced(i) && !has_plain_hits(scene, i)) return false;
-    return true;
-}
-
-bool is_empty(const GpuScene& scene) {
-    for (std::uint32_t i = 0; i < scene.instances().size(); ++i)
-        if (scene.traced(i)) return false;
-    return true;
-}
-
 } // namespace
+
+EmbreeScene::EmbreeScene() = default;
 
 Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, Use use) {
     std::unique_ptr<EmbreeScene> self(new EmbreeScene);
@@ -43,30 +30,41 @@ Result<std::unique_ptr<EmbreeScene>> EmbreeScene::create(unsigned threads, Use u
         self->packet_size_ = 16;
     else if (rtcGetDeviceProperty(self->device_, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
         self->packet_size_ = 8;
-    for (Instances* instances : {&self->surfaces_, &self->borders_}) {
-        instances->scene = rtcNewScene(self->device_);
-        rtcSetSceneFlags(instances->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
-        rtcCommitScene(instances->scene);
-    }
+    self->surfaces_ = std::make_unique<EmbreeInstances>(self->device_);
+    self->borders_ = std::make_unique<EmbreeInstances>(self->device_);
     return self;
 }
 
 EmbreeScene::~EmbreeScene() {
-    for (Instances* instances : {&surfaces_, &borders_})
-        if (instances->scene) rtcReleaseScene(instances->scene);
+    surfaces_.reset();
+    borders_.reset();
     if (flat_) rtcReleaseScene(flat_);
     meshes_.clear();
     box_.reset();
     if (device_) rtcReleaseDevice(device_);
 }
 
+Result<void> EmbreeScene::check(const char* what) const {
+    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+        return fail(fmt::format("Embree could not build {} (error {})", what, int(error)));
+    return {};
+}
+
 Result<void> EmbreeScene::update(const GpuScene& scene, const SceneChanges& changes) {
     scene_ = &scene;
-    simple_ = is_simple(scene);
     const bool changed = !changes.meshes.empty() || !changes.instances.empty();
-    if (flat_ && !changed && !is_empty(scene)) return {}; // an empty one has no changes, but the flat one was forgotten
+    if (flat_ && !changed && scene.any_traced())
+        return {}; // an empty one has no changes, but the flat one is forgotten
     if (flattening_pays(changes)) return flatten(changes);
     return flat_ ? unflatten(changes) : update_instances(changes);
+}
+
+bool EmbreeScene::settled() const { return !surfaces_->apart() && !borders_->apart(); }
+
+Result<void> EmbreeScene::settle() {
+    surfaces_->merge();
+    borders_->merge();
+    return check("the scene");
 }
 
 Result<void> EmbreeScene::update_instances(const SceneChanges& changes) {
@@ -104,16 +102,13 @@ Result<void> EmbreeScene::update_instances(const SceneChanges& changes) {
         rtcAttachGeometryByID(mesh->scene, mesh->geometry, 0);
         rtcReleaseGeometry(mesh->geometry);
         rtcCommitScene(mesh->scene);
-        if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-            return fail(
-                fmt::format("Embree could not build a mesh of {} triangles (error {})", g->triangle_count, int(error)));
+        RESTAGE_CHECK(check(fmt::format("a mesh of {} triangles", g->triangle_count).c_str()));
         meshes_[id.value] = std::move(mesh);
     }
-    update(surfaces_, scene, changes, &GpuScene::traced);
-    update(borders_, scene, changes, &GpuScene::border);
-    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-        return fail(fmt::format("Embree could not build the scene (error {})", int(error)));
-    return {};
+    const bool refiltered = add_filters(changes);
+    update(*surfaces_, changes, refiltered, &GpuScene::traced);
+    update(*borders_, changes, refiltered, &GpuScene::border);
+    return check("the scene");
 }
 
 // The geometry of all quadrics: one box, placed around each by its instance.
@@ -130,56 +125,52 @@ Result<void> EmbreeScene::make_box() {
     rtcAttachGeometryByID(box_->scene, box_->geometry, 0);
     rtcReleaseGeometry(box_->geometry);
     rtcCommitScene(box_->scene);
-    if (const auto error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
-        return fail(fmt::format("Embree could not build the box of quadrics (error {})", int(error)));
-    return {};
+    return check("the box of quadrics");
 }
 
-void EmbreeScene::update(Instances& top, const GpuScene& scene, const SceneChanges& changes,
+EmbreeScene::Mesh& EmbreeScene::mesh_of(std::uint32_t instance) const {
+    return scene_->is_quadric(instance) ? *box_ : *meshes_.at(scene_->mesh_of(instance).value);
+}
+
+// Filters of meshes that had none. True: some were, and what has their instances must be built again.
+bool EmbreeScene::add_filters(const SceneChanges& changes) {
+    bool some = false;
+    for (auto id : changes.instances) {
+        if (!scene_->traced(id.value) && !scene_->border(id.value)) continue;
+        if (!(scene_->instances()[id.value].flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES)))
+            continue;
+        Mesh& mesh = mesh_of(id.value);
+        if (std::exchange(mesh.filtered, true)) continue;
+        some = true;
+        rtcSetGeometryIntersectFilterFunction(mesh.geometry, embree_hit_filter);
+        rtcSetGeometryOccludedFilterFunction(mesh.geometry, embree_hit_filter);
+        rtcCommitGeometry(mesh.geometry);
+        rtcCommitScene(mesh.scene);
+    }
+    return some;
+}
+
+void EmbreeScene::update(EmbreeInstances& top, const SceneChanges& changes, bool refiltered,
                          bool (GpuScene::*is_wanted)(std::uint32_t) const) {
-    bool changed = false;
-    for (std::size_t i = scene.instances().size(); i < top.attached.size(); ++i) // of a forgotten scene
-        if (top.attached[i]) {
-            rtcDetachGeometry(top.scene, unsigned(i));
-            changed = true;
-        }
-    top.attached.resize(scene.instances().size(), 0);
+    const std::size_t count = scene_->instances().size();
+    top.begin(count, refiltered ? count : changes.instances.size());
+    std::unordered_set<std::uint32_t> replaced;
+    for (auto id : changes.meshes)
+        replaced.insert(id.value);
     for (auto id : changes.instances) {
         const auto i = id.value;
-        const std::uint32_t wanted = (scene.*is_wanted)(i) ? scene.mesh_of(i).value : 0;
-        changed |= wanted || top.attached[i];
-        const bool same_mesh =
-            wanted && top.attached[i] == wanted &&
-            std::find(changes.meshes.begin(), changes.meshes.end(), scene.mesh_of(i)) == changes.meshes.end();
-        RTCGeometry geometry = nullptr;
-        if (same_mesh) {
-            geometry = rtcGetGeometry(top.scene, i);
-        } else {
-            if (top.attached[i]) rtcDetachGeometry(top.scene, i);
-            top.attached[i] = wanted;
-            if (!wanted) continue;
-            geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-            rtcSetGeometryInstancedScene(geometry, (scene.is_quadric(i) ? box_ : meshes_.at(wanted))->scene);
-            rtcAttachGeometryByID(top.scene, geometry, i);
-            rtcReleaseGeometry(geometry);
+        if (!(scene_->*is_wanted)(i)) {
+            top.remove(i);
+            continue;
         }
-        const shared::InstanceData& data = scene.instances()[i];
-        const glm::mat4x3 placement = scene.placement(i);
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &placement);
-        rtcCommitGeometry(geometry);
+        const glm::mat4x3 placement = scene_->placement(i);
+        const std::uint32_t mesh = scene_->mesh_of(i).value;
+        top.place(i, mesh, mesh_of(i).scene, placement, refiltered || replaced.contains(mesh));
         const glm::mat3 inverse = glm::inverse(glm::mat3(placement));
         for (int k = 0; k < 9; ++k)
             reach_ = std::min(reach_, largest_coordinate / std::max(std::abs(inverse[k / 3][k % 3]), 1.f));
-        Mesh& mesh = scene.is_quadric(i) ? *box_ : *meshes_.at(wanted);
-        if ((data.flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES)) && !mesh.filtered) {
-            mesh.filtered = true;
-            rtcSetGeometryIntersectFilterFunction(mesh.geometry, embree_hit_filter);
-            rtcSetGeometryOccludedFilterFunction(mesh.geometry, embree_hit_filter);
-            rtcCommitGeometry(mesh.geometry);
-            rtcCommitScene(mesh.scene);
-        }
     }
-    if (changed) rtcCommitScene(top.scene);
+    top.commit();
 }
 
 } // namespace restage::render

@@ -16,6 +16,8 @@ struct RTCSceneTy;
 
 namespace restage::render {
 
+class EmbreeInstances;
+
 class EmbreeScene {
   public:
     struct Use {
@@ -29,6 +31,9 @@ class EmbreeScene {
 
     // Updates to the GpuScene; builds only what `changes` lists.
     Result<void> update(const GpuScene& scene, const SceneChanges& changes);
+    // Of many instances, edited ones are kept apart, so that updates are fast; settle() ends that, so that rays are.
+    bool settled() const;
+    Result<void> settle();
 
     // In place, on the kernels' memory: `ray` is a shared::RayHit, `shadow` a shared::ShadowRay. Thread-safe between
     // updates. intersect leaves inst == NONE on a miss; occluded sets tfar to -inf if blocked.
@@ -65,30 +70,27 @@ class EmbreeScene {
 
   private:
     struct Mesh;
-    struct Instances { // a scene over instances of the meshes
-        RTCSceneTy* scene = nullptr;
-        std::vector<std::uint32_t> attached; // mesh by instance, 0 = not attached
-    };
-    EmbreeScene() = default;
+    EmbreeScene();
     Result<void> update_instances(const SceneChanges&);
     bool flattening_pays(const SceneChanges&) const;
     Result<void> flatten(const SceneChanges&);
     Result<void> unflatten(const SceneChanges&);
-    RTCSceneTy* surfaces() const { return flat_ ? flat_ : surfaces_.scene; }
+    Result<void> make_box();
+    Mesh& mesh_of(std::uint32_t instance) const;
+    bool add_filters(const SceneChanges&);
     template <int>
     void intersect_packets(std::span<shared::RayHit>, std::span<const std::uint32_t>) const;
     template <int>
     void occluded_packets(std::span<shared::ShadowRay>, std::span<const std::uint32_t>) const;
-    void update(Instances&, const GpuScene&, const SceneChanges&, bool (GpuScene::*wanted)(std::uint32_t) const);
-    void intersect(RTCSceneTy*, bool borders, shared::RayHit&, std::vector<Undecided>*) const;
+    void update(EmbreeInstances&, const SceneChanges&, bool refiltered, bool (GpuScene::*wanted)(std::uint32_t) const);
+    void intersect_instances(const EmbreeInstances&, shared::RayHit&, std::vector<Undecided>*) const;
+    Result<void> check(const char* what) const;
     const GpuScene* scene_ = nullptr;
     RTCDeviceTy* device_ = nullptr;
     Use use_;
     int packet_size_ = 1; // that this machine's instructions support
-    bool simple_ = false; // no query needs to know its ray: no cut-outs, quadrics, ...
     float reach_ = 0; // limit of ray coordinates, so that they fit the smallest object's space [scene units]
-    Instances surfaces_, borders_; // what light hits; borders of media, which it passes
-    Result<void> make_box();
+    std::unique_ptr<EmbreeInstances> surfaces_, borders_; // what light hits; borders of media, which it passes
     std::unordered_map<std::uint32_t, std::unique_ptr<Mesh>> meshes_; // by Id<Mesh>::value; without quadrics
     RTCSceneTy* flat_ = nullptr; // instead of surfaces_; geometries by instance
     std::vector<scene::Id<scene::Mesh>> not_built_; // meshes of a flat scene

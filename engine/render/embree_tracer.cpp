@@ -47,6 +47,8 @@ class EmbreeTracer final : public Tracer {
         if (changes.shaders) guided_kernels_.reset();
         return changes.shaders ? kernels_.select(scene) : Result<void>{};
     }
+    bool settled() const override { return embree_->settled(); }
+    Result<void> settle() override { return embree_->settle(); }
     bool adopt() override { return kernels_.adopt(); }
     std::optional<CompileProgress> compiling() const override { return kernels_.compiling(); }
     void film_emptied() override {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GpuArray<T>: a host vector and its buffer on the device. Change the vector, flush(): only differences are uploaded.
+// GpuArray<T>: a host vector and its buffer on the device. Change the vector, flush(): only differences are uploaded,
+// item by item if they are few.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -44,13 +45,15 @@ class GpuArray {
             RESTAGE_TRY(buffer_, device.create_buffer(capacity * sizeof(T), gpu::BufferKind::host, name_));
             touch(0, host_.size());
         }
-        if (first_ < last_) {
+        for (const Range& r : changed_) {
+            const std::size_t last = std::min(r.last, host_.size()); // it may have shrunk since
+            if (r.first >= last) continue;
             const auto bytes =
-                std::as_bytes(std::span(host_)).subspan(first_ * sizeof(T), (last_ - first_) * sizeof(T));
-            RESTAGE_CHECK(device.upload(buffer_, first_ * sizeof(T), bytes));
+                std::as_bytes(std::span(host_)).subspan(r.first * sizeof(T), (last - r.first) * sizeof(T));
+            RESTAGE_CHECK(device.upload(buffer_, r.first * sizeof(T), bytes));
             uploaded_bytes_ += bytes.size();
         }
-        first_ = last_ = 0;
+        changed_.clear();
         return {};
     }
     std::size_t uploaded_bytes() const { return uploaded_bytes_; } // in total: tests check edits against it
@@ -58,20 +61,25 @@ class GpuArray {
   private:
     static bool same(const T* a, const T* b, std::size_t n) { return n == 0 || std::memcmp(a, b, n * sizeof(T)) == 0; }
     void touch(std::size_t first, std::size_t last) {
-        if (first_ == last_) {
-            first_ = first;
-            last_ = last;
-        } else {
-            first_ = std::min(first_, first);
-            last_ = std::max(last_, last);
+        if (first >= last) return;
+        constexpr std::size_t most = 64; // then the last one grows
+        const bool apart = changed_.empty() || first > changed_.back().last || last < changed_.back().first;
+        if (apart && changed_.size() < most) {
+            changed_.push_back({first, last});
+            return;
         }
-        last_ = std::min(last_, host_.size());
-        first_ = std::min(first_, last_);
+        Range& r = changed_.back();
+        r.first = std::min(r.first, first);
+        r.last = std::max(r.last, last);
     }
     const char* name_;
     std::vector<T> host_;
     gpu::Buffer buffer_;
-    std::size_t first_ = 0, last_ = 0, uploaded_bytes_ = 0;
+    struct Range {
+        std::size_t first, last;
+    };
+    std::vector<Range> changed_;
+    std::size_t uploaded_bytes_ = 0;
 };
 
 } // namespace restage::render

@@ -73,6 +73,9 @@ class GpuScene {
     const scene::MeshData* mesh_data(scene::Id<scene::Mesh> id) const { return mesh_data_[id.value].get(); }
     // Whether rays can hit this instance.
     bool traced(std::uint32_t instance) const { return traced_[instance] != 0; }
+    bool any_traced() const { return counts_.traced > 0; }
+    // No query needs to know its ray: no cut-outs, quadrics, ...
+    bool plain_hits() const { return counts_.not_plain == 0; }
     // Whether it blocks shadow rays: true for everything that rays can hit, except lamps without a surface.
     bool opaque(std::uint32_t instance) const {
         return traced(instance) && !(instances()[instance].flags & INSTANCE_PASSES);
@@ -141,6 +144,7 @@ class GpuScene {
     void find_undecided();
     Result<void> sync_root(const scene::Scene&, SceneChanges&, bool colors);
     Result<void> upload_image(const scene::Image&, Pixels&, SceneChanges&);
+    void count(std::uint32_t instance, std::uint32_t by);
     std::uint32_t type_index(const std::string& type);
     bool refresh_types();
     // An instance's effective emission: its own, else its material's.
@@ -177,7 +181,7 @@ class GpuScene {
     std::vector<char> has_gaps_; // by MaterialData index: a mix with a null component
     // By Id<Instance>::value:
     std::vector<char> traced_, border_, flat_; // flat: rays cannot be transformed to its object space
-    std::vector<char> quadric_; // that rays may hit
+    std::vector<char> quadric_; // and shown
     std::vector<char> undecided_; // empty: none is
     std::vector<scene::Id<scene::Mesh>> mesh_of_;
     std::vector<std::uint32_t> used_material_; // of visible instances; 0 = none
@@ -207,7 +211,10 @@ class GpuScene {
     GpuArray<float> filter_{"pixel filter"};
     GpuArray<shared::SceneData> scene_data_{"scene"};
     LightTable light_table_;
-    std::uint32_t quadrics_ = 0; // number that rays may hit
+    struct Counts { // of instances
+        std::uint32_t traced = 0, glow = 0, not_plain = 0; // that rays can hit; of these
+        std::uint32_t border = 0, quadric = 0; // quadric: that is shown, though maybe not hit
+    } counts_;
     bool lights_touched_ = false; // by the last sync_instances: emitters that came or went
     std::vector<scene::Id<scene::Instance>> moved_emitters_; // likewise: those that only moved
     bool reads_files_ = false; // some material in use does; the files may have changed
@@ -215,7 +222,7 @@ class GpuScene {
     std::uint32_t filter_entries_ = 0;
     bool all_caustics_ = false;
     std::tuple<bool, scene::Technique, scene::Technique> techniques_; // adaptive, guiding, caustics: not on the device
-    bool light_alpha_ = false, glow_ = false; // of SceneFeatures
+    bool light_alpha_ = false; // of SceneFeatures
 
     struct Versions {
         scene::Version meshes = 0, images = 0, textures = 0, materials = 0, instances = 0, lights = 0, media = 0,

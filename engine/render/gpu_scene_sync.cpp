@@ -265,6 +265,15 @@ bool traceable(const glm::dmat4& object_to_world) {
 
 } // namespace
 
+void GpuScene::count(std::uint32_t instance, std::uint32_t by) {
+    const std::uint32_t flags = instances_[instance].flags;
+    if (border_[instance]) counts_.border += by;
+    if (!traced_[instance]) return;
+    counts_.traced += by;
+    if (flags & INSTANCE_PASSES) counts_.glow += by;
+    if (flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES | INSTANCE_QUADRIC)) counts_.not_plain += by;
+}
+
 bool GpuScene::same_materials_in_use(const Scene& scene) const {
     if (first_ || reads_files_) return false;
     bool same = true;
@@ -280,6 +289,10 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
     const std::uint32_t n = scene.instances.size() + 1;
     const std::uint32_t old = std::uint32_t(traced_.size());
     if (instances_.size() != n) {
+        for (std::uint32_t i = n; i < old; ++i) {
+            count(i, -1u);
+            counts_.quadric -= std::uint32_t(quadric_[i]);
+        }
         instances_.resize(n, {});
         traced_.resize(n, 0);
         border_.resize(n, 0);
@@ -311,7 +324,7 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         }
         const bool there = in && !in->hidden && !flat_[i] && mesh(in->mesh);
         const bool quadric = there && mesh(in->mesh)->quadric;
-        quadrics_ = quadrics_ + quadric - (quadric_[i] != 0);
+        counts_.quadric += std::uint32_t(quadric) - std::uint32_t(quadric_[i]);
         quadric_[i] = quadric;
         const bool invisible = in && !scene.textures.find(in->alpha_texture) && !(in->alpha > 0);
         const bool traced = there && !invisible && (!nothing || in->emission);
@@ -336,9 +349,11 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the GPU sees bits; uploading another zero is harmless
         if (!moved_in_or_out && mesh_of_[i] == its_mesh && std::memcmp(&record, &instances_[i], sizeof(record)) == 0)
             return; // just renamed
+        count(i, -1u);
         instances_.set(i, record);
         traced_[i] = traced;
         border_[i] = border;
+        count(i, 1);
         mesh_of_[i] = its_mesh;
         changes.instances.push_back(id);
     };
@@ -409,9 +424,7 @@ Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bo
         if (std::ranges::all_of(moved_emitters_, replace)) return flush_lights();
     }
 
-    light_alpha_ = glow_ = false;
-    for (std::uint32_t i = 1; i < instances_.size(); ++i)
-        glow_ |= traced_[i] && (instances_[i].flags & INSTANCE_PASSES);
+    light_alpha_ = false;
     const auto emitter = [&](Id<scene::Instance> id) {
         auto out = emitter_of(scene, id);
         light_alpha_ |= out && (instances_[id.value].flags & INSTANCE_HAS_ALPHA);
@@ -536,8 +549,8 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
     f.filter_table = d.filter_.kind == FILTER_TABLE;
     f.emission_textures = std::ranges::any_of(emission_, [](const auto& e) { return e && e->texture; });
     f.light_alpha = light_alpha_;
-    f.glow = glow_;
-    f.quadrics = quadrics_ > 0;
+    f.glow = counts_.glow > 0;
+    f.quadrics = counts_.quadric > 0;
     const auto* camera = scene.cameras.find(scene.active_camera.value);
     f.camera = camera ? std::uint32_t(camera->projection) : CAMERA_PERSPECTIVE;
     f.lights = light_table_.kinds;
@@ -545,7 +558,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
     f.light_roots = emitters > light_node_children ? 9 : roots > 1 ? std::bit_ceil(roots) : roots;
     f.spectral = colors_ != nullptr;
     f.curves = light_curves_;
-    f.borders = std::ranges::find(border_, 1) != border_.end();
+    f.borders = counts_.border > 0;
     all_caustics_ = settings.caustics == scene::Technique::on;
     const std::tuple techniques(settings.adaptive, settings.guiding, settings.caustics);
     changes.image |= std::exchange(techniques_, techniques) != techniques;

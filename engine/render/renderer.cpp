@@ -14,6 +14,9 @@
 
 namespace restage::render {
 
+// Samples after which the time of a Tracer::settle() is worth it, and nobody seems to be editing.
+constexpr std::uint32_t settling_pays = 16;
+
 Renderer::Renderer(const RendererOptions& options, MaterialLookup lookup, Log& log)
     : options_(options),
       lookup_(std::move(lookup)),
@@ -61,7 +64,8 @@ Result<void> Renderer::open() {
                                 .log = *log_,
                                 .shader_dir = options_.shader_dir,
                                 .strategy = options_.strategy,
-                                .stand_ins = options_.stand_ins};
+                                .stand_ins = options_.stand_ins,
+                                .all_features = options_.all_features};
     RESTAGE_TRY(tracer_, kind->make(context));
     log_->debug(fmt::format("device: {} ({}); tracer: {}", info.name, info.driver, tracer_->name()));
     forget_scene();
@@ -229,7 +233,14 @@ Result<void> Renderer::trace(std::uint32_t samples, std::function<bool()> keep_g
     bool going = true;
     for (const std::uint32_t goal = samples_ + samples; going && samples_ < goal;) {
         RESTAGE_CHECK(guiding_->advance(samples_, *device_, jobs_));
-        RESTAGE_TRY(going, trace_some(std::min(goal - samples_, guiding_->until_change(samples_)), keep_going));
+        std::uint32_t next = std::min(goal - samples_, guiding_->until_change(samples_));
+        if (!tracer_->settled()) { // while edits follow one another it stays so
+            if (samples_ >= settling_pays)
+                RESTAGE_CHECK(tracer_->settle());
+            else
+                next = std::min(next, settling_pays - samples_);
+        }
+        RESTAGE_TRY(going, trace_some(next, keep_going));
     }
     if (samples_ > 0) revived_ = false;
     return {};

@@ -26,6 +26,7 @@ struct RendererOptions {
     // False: trace() waits for compilation. True (for an editor): it does not; meanwhile a material
     // looks as before its change or, if new, like a diffuse one of its colour. See Renderer::compiling().
     bool stand_ins = false;
+    bool all_features = false; // the embree tracer's shaders keep what the scene lacks, to measure what that saves
     std::filesystem::path shader_dir; // empty = <program>/../share/restage/shaders
     std::filesystem::path cache_dir; // empty = base's cache_dir()
     std::shared_ptr<gpu::DeviceFault> fault; // for tests, see gpu::DeviceFault

@@ -27,7 +27,7 @@ struct TracerContext {
     Log& log;
     std::filesystem::path shader_dir;
     Strategy strategy = Strategy::mis;
-    bool stand_ins = false; // see RendererOptions
+    bool stand_ins = false, all_features = false; // see RendererOptions
 };
 
 struct PixelSamples { // to add to a pixel
@@ -66,6 +66,10 @@ class Tracer {
     virtual const EmbreeScene* embree() const { return nullptr; } // if it finds hits with Embree
     // Updates acceleration structures, and records which shaders the scene now needs.
     virtual Result<void> update(const GpuScene& scene, const SceneChanges& changes) = 0;
+    // Whether tracing is as fast as in a scene just opened; settle() makes it so, in the time of building one. It may
+    // not be after an update() with few changes.
+    virtual bool settled() const { return true; }
+    virtual Result<void> settle() { return {}; }
     // Switches to newly compiled shaders. True: the picture differs, the film must restart.
     // Cancels compilation of what the last trace() did not need: undoing an edit cancels its requests.
     virtual bool adopt() = 0;

@@ -2,7 +2,9 @@
 #include "render/wave_hits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <utility>
 
 namespace restage::render {
 namespace {
@@ -10,18 +12,22 @@ namespace {
 constexpr std::size_t ahead = 16; // paths prefetched: kernels left them in another cache
 constexpr std::uint8_t type_none = WaveMemory::type_none;
 
-// Paths whose rays are traced together.
-class Batch {
-  public:
-    void add(std::uint32_t path) { paths_[size_++] = path; }
-    bool full() const { return size_ == paths_.size(); }
-    void clear() { size_ = 0; }
-    std::span<const std::uint32_t> paths() const { return {paths_.data(), size_}; }
-
-  private:
-    std::array<std::uint32_t, 16> paths_;
-    std::size_t size_ = 0;
-};
+// Calls trace(std::span<const std::uint32_t>) for those of `active` that have a ray, some at a time. Returns their
+// number.
+template <class Prefetch, class HasRay, class Trace>
+std::uint32_t in_batches(std::span<const std::uint32_t> active, Prefetch&& prefetch, HasRay&& has_ray, Trace&& trace) {
+    std::array<std::uint32_t, 16> batch;
+    std::size_t size = 0;
+    std::uint32_t traced = 0;
+    for (std::size_t a = 0; a < active.size(); ++a) {
+        if (a + ahead < active.size()) prefetch(active[a + ahead]);
+        if (has_ray(active[a])) batch[size++] = active[a];
+        if (size < batch.size() && a + 1 < active.size()) continue;
+        trace(std::span<const std::uint32_t>(batch.data(), size));
+        traced += std::uint32_t(std::exchange(size, 0));
+    }
+    return traced;
+}
 
 } // namespace
 
@@ -82,30 +88,23 @@ void WaveHits::add_light(const View& view, std::uint32_t path, float distance) {
 std::uint32_t WaveHits::trace_shadows(const View& view, std::span<const std::uint32_t> active, Undecided* undecided) {
     const auto shadows = wave_.shadows();
     const auto paths = wave_.paths();
-    std::uint32_t traced = 0;
-    Batch batch;
-    for (std::size_t a = 0; a < active.size(); ++a) {
-        if (a + ahead < active.size()) {
-            __builtin_prefetch(&shadows[active[a + ahead]]);
-            __builtin_prefetch(&paths[active[a + ahead]]);
-        }
-        if (shadows[active[a]].tfar > 0) batch.add(active[a]);
-        if (!batch.full() && a + 1 < active.size()) continue;
-        traced += std::uint32_t(batch.paths().size());
+    const auto prefetch = [&](std::uint32_t i) {
+        __builtin_prefetch(&shadows[i]);
+        __builtin_prefetch(&paths[i]);
+    };
+    const auto has_ray = [&](std::uint32_t i) { return shadows[i].tfar > 0; };
+    return in_batches(active, prefetch, has_ray, [&](std::span<const std::uint32_t> batch) {
         if (undecided) {
-            for (const std::uint32_t i : batch.paths())
+            for (const std::uint32_t i : batch)
                 occluded_undecided(view, i, *undecided);
-        } else {
-            view.embree.occluded(shadows, batch.paths());
-            for (const std::uint32_t i : batch.paths()) {
-                const float distance = shadows[i].tfar;
-                shadows[i].tfar = -1;
-                if (distance > 0) add_light(view, i, distance);
-            }
+            return;
         }
-        batch.clear();
-    }
-    return traced;
+        view.embree.occluded(shadows, batch);
+        for (const std::uint32_t i : batch) {
+            const float distance = std::exchange(shadows[i].tfar, -1.f);
+            if (distance > 0) add_light(view, i, distance);
+        }
+    });
 }
 
 // Adds the light unless something blocks it, or what might is undecided.
@@ -156,31 +155,27 @@ void WaveHits::note_caster(const View& view, std::uint32_t i) {
 std::uint32_t WaveHits::trace_closest(const View& view, std::span<const std::uint32_t> active, TypeCounts& count,
                                       Undecided* undecided) {
     const auto rays = wave_.rays();
-    std::uint32_t traced = 0;
-    Batch batch;
-    for (std::size_t a = 0; a < active.size(); ++a) {
-        if (a + ahead < active.size()) {
-            __builtin_prefetch(&rays[active[a + ahead]]);
-            __builtin_prefetch(&rays[active[a + ahead]].u);
-        }
-        const std::uint32_t i = active[a];
+    const auto prefetch = [&](std::uint32_t i) {
+        __builtin_prefetch(&rays[i]);
+        __builtin_prefetch(&rays[i].u);
+    };
+    const auto has_ray = [&](std::uint32_t i) {
+        shared::RayHit& ray = rays[i];
         emits_[i] = 0;
-        if (shared::RayHit& ray = rays[i]; ray.tfar > 0) {
-            if (!casters_.empty()) note_caster(view, i);
-            ray.geom = ray.inst = NONE;
-            batch.add(i);
-        } else {
+        if (!(ray.tfar > 0)) {
             types_[i] = type_none;
             ++count[type_none];
+            return false;
         }
-        if (!batch.full() && a + 1 < active.size()) continue;
-        traced += std::uint32_t(batch.paths().size());
-        if (!undecided) view.embree.intersect(rays, batch.paths());
-        for (const std::uint32_t k : batch.paths())
-            if (!undecided || !intersect_undecided(view, k, *undecided)) give_type(view, k, count);
-        batch.clear();
-    }
-    return traced;
+        if (!casters_.empty()) note_caster(view, i);
+        ray.geom = ray.inst = NONE;
+        return true;
+    };
+    return in_batches(active, prefetch, has_ray, [&](std::span<const std::uint32_t> batch) {
+        if (!undecided) view.embree.intersect(rays, batch);
+        for (const std::uint32_t i : batch)
+            if (!undecided || !intersect_undecided(view, i, *undecided)) give_type(view, i, count);
+    });
 }
 
 void WaveHits::give_type(const View& view, std::uint32_t i, TypeCounts& count, std::optional<std::uint32_t> material) {

@@ -12,12 +12,6 @@
 namespace restage::render {
 namespace {
 
-// For tests/bench/needs.py: shaders keep what the scene lacks, to tell what its removal saves.
-bool keeps_everything() {
-    static const bool asked = std::getenv("RESTAGE_TEST_ALL_FEATURES") != nullptr;
-    return asked;
-}
-
 // But for techniques and spectra, which need data of their own, and borders, which the CPU's side handles.
 SceneFeatures all_features(SceneFeatures f) {
     f.environment = f.lens = f.media = f.filter_table = f.emission_textures = f.light_alpha = f.glow = f.quadrics =
@@ -32,7 +26,7 @@ SceneFeatures all_features(SceneFeatures f) {
 Result<void> WaveKernels::select(const GpuScene& scene, bool guiding) {
     const bool other_colors = features_.spectral != scene.features().spectral; // and other words of values
     features_ = scene.features();
-    if (keeps_everything()) features_ = all_features(features_);
+    if (c_.all_features) features_ = all_features(features_);
     features_.guiding = guiding;
     auto before = std::exchange(types_, scene.types());
     texture_types_ = scene.texture_types();
@@ -75,7 +69,7 @@ Result<gpu::ComputeRequest> WaveKernels::request(const Slot& slot) const {
         set_color_mode(color_mode(features_), r.shader);
     }
     r.constants = spec_constants(features_, true, c_.strategy, type);
-    if (type && keeps_everything()) // textures, bump, tangents
+    if (type && c_.all_features) // textures, bump, tangents
         for (gpu::SpecConstant& c : r.constants)
             if (c.id == 1 || c.id == 2 || c.id == 7) c.value = 1;
     if (&slot == &decide_) r.push_constant_bytes = sizeof(shared::DecidePush);

@@ -1,12 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many lamps: the time to derive their table and tree, and from moving one of them until the next sample can start.
+// Many lamps: the time to derive their table and tree, and from moving one of them, or another object, until the next
+// sample can start; and the latter among many objects.
 #include "bench.hpp"
 #include "render/light_table.hpp"
 #include "render/light_tree.hpp"
 #include "scene/edit.hpp"
 #include "scenes.hpp"
 
+#include <array>
+#include <span>
+
 namespace restage::bench {
+namespace {
+
+// The time from moving one of these until the next sample can start: every `step`-th in turn, a sample in between.
+Json moves(const Options& o, render::Renderer& renderer, scene::Scene& scene,
+           std::span<const scene::Id<scene::Instance>> of, std::size_t step) {
+    Json runs = Json::array();
+    for (std::size_t i = 0; i < std::size_t(std::max(o.runs, 3)) * 4; ++i) {
+        const auto id = of[(i * step + 11) % of.size()];
+        const scene::Instance before = scene.instances[id];
+        scene::Instance moved = before;
+        moved.object_to_world[3].y += 0.5;
+        const Seconds sync = time([&] {
+            apply(scene, scene::Edit{"move", {scene::Change<scene::Instance>{id, before, moved}}});
+            check(renderer.sync(scene));
+        });
+        runs.push_back(sync.wall);
+        check(renderer.trace(1));
+    }
+    return runs;
+}
+
+} // namespace
 
 Json measure_lamps(const Options& o) {
     using namespace scene;
@@ -25,7 +51,7 @@ Json measure_lamps(const Options& o) {
             return render::Emitter{
                 .radiance = instance.emission->radiance, .two_sided = false, .varies = false, .mean = {}};
         };
-        Json tables = Json::array(), trees = Json::array(), moves = Json::array();
+        Json tables = Json::array(), trees = Json::array();
         for (int i = 0; i < std::max(o.runs, 3); ++i) {
             render::LightTable table;
             const Seconds made =
@@ -35,20 +61,23 @@ Json measure_lamps(const Options& o) {
             for (const auto& node : table.nodes)
                 if (node.lights > 0) leaves.push_back(node);
             trees.push_back(time([&] { render::make_light_tree(std::move(leaves)); }).wall);
-            const auto id = lamps[std::size_t(i * 37 + 11) % lamps.size()];
-            Instance moved = scene.instances[id];
-            const Instance before = moved;
-            moved.object_to_world[3].y += 0.5;
-            const Seconds sync = time([&] {
-                apply(scene, Edit{"move", {Change<Instance>{id, before, moved}}});
-                check(renderer->sync(scene));
-            });
-            moves.push_back(sync.wall);
-            check(renderer->trace(1));
         }
-        rows.push_back({{"lamps", count}, {"table", tables}, {"tree", trees}, {"move", moves}});
+        rows.push_back({{"lamps", count},
+                        {"table", tables},
+                        {"tree", trees},
+                        {"move", moves(o, *renderer, scene, lamps, 37)},
+                        {"move_far_apart", moves(o, *renderer, scene, lamps, 20011)},
+                        {"move_floor", moves(o, *renderer, scene, std::array{Id<Instance>{1}}, 1)}});
     }
-    return {{"rows", rows}};
+    std::vector<Id<Instance>> spheres;
+    Scene scene = crowd(o.quick ? 10'000 : 100'000, 5, spheres);
+    const auto renderer = plugins.renderer({.threads = o.threads});
+    check(renderer->sync(scene));
+    check(renderer->trace(1));
+    const Json objects = {{"objects", spheres.size()},
+                          {"move", moves(o, *renderer, scene, spheres, 37)},
+                          {"move_far_apart", moves(o, *renderer, scene, spheres, 20011)}};
+    return {{"rows", rows}, {"without_lamps", objects}};
 }
 
 } // namespace restage::bench

@@ -3,7 +3,7 @@
 
     python tests/bench/needs.py SCENE... [--size 96x96] [--samples 16] [--runs 3]
 
-Each scene is rendered as usual, and with shaders that keep every feature (RESTAGE_TEST_ALL_FEATURES: engine/render/wave_kernels.cpp), in turns. Kernels, SPIR-V,
+Each scene is rendered as usual, and with shaders that keep every feature (--all-features, which --help does not list), in turns. Kernels, SPIR-V,
 machine code (Mesa's cache, compressed) and the CPU time to the first sample are of one run with empty caches; CPU time per sample is the median of later runs. The pictures have other
 noise, but must agree: z is the difference of a pair in its standard errors, root mean square over pixels."""
 import argparse
@@ -32,13 +32,12 @@ class Variant:
     def __init__(self, scene, size, folder, everything):
         self.scene, self.size, self.folder = scene, size, folder
         self.env = {**os.environ, "XDG_CACHE_HOME": str(folder), "MESA_SHADER_CACHE_DIR": str(folder / "mesa")}
-        if everything:
-            self.env["RESTAGE_TEST_ALL_FEATURES"] = "1"
+        self.options = ["--all-features"] if everything else []
 
     def render(self, samples):
         """(statistics, planes of the picture)"""
         out, figures = self.folder / "x.exr", self.folder / "x.json"
-        subprocess.run([PROGRAM, "--quiet", "render", self.scene, "-o", out, "--size", self.size, "--spp", str(samples), "--tracer", "embree", "--statistics", figures],
+        subprocess.run([PROGRAM, "--quiet", "render", self.scene, "-o", out, "--size", self.size, "--spp", str(samples), "--tracer", "embree", "--statistics", figures, *self.options],
                        check=True, env=self.env, capture_output=True)
         return json.loads(figures.read_text()), exr_file.read(out)
 
