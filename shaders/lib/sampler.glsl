@@ -2,7 +2,7 @@
 // Sampler: Owen-scrambled Sobol (0,2) pairs, padded: each dimension pair has its own shuffle of the sample index and
 // its own scramble. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4).
 //
-// The 16 x 16 pixels of a tile share a pair's shuffle and scramble, and each shifts the points by digits of its own, so
+// The 16 x 16 pixels of a tile share a pair's scramble, and each shifts the points by digits of its own, so
 // that the samples of neighbours complete each other and the noise that is left is blue: what a denoiser, or an eye,
 // averages over a few pixels is well distributed. Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte
 // Carlo Sampling Error via Hierarchical Ordering of Pixels", but for any number of samples.
@@ -41,8 +41,12 @@ const uint SHIFT_Y[8] = uint[](0x047fu, 0x1f95u, 0x1333u, 0x2e52u, 0x526fu, 0x19
 // Pair number `pair` of sample `index` in a pixel with this seed, 32 bits each. The seed's lowest eight bits are the
 // pixel's place in its tile.
 uvec2 sample_bits(uint seed, uint index, uint pair) {
-    uint s = pcg_hash((seed >> 8) ^ (pair * 0x9e3779b9u));
-    index = bitfieldReverse(laine_karras(bitfieldReverse(index), s));
+    pair *= 0x9e3779b9u;
+    uint s = pcg_hash((seed >> 8) ^ pair);
+    // Of indices, only those between two powers of two are shuffled with each other: the first 2^k stay what they are.
+    uint most = index == 0u ? 0u : 1u << findMSB(index);
+    index = bitfieldReverse(laine_karras(bitfieldReverse(index), pcg_hash(seed ^ pair)));
+    index = most | (index & (most - 1u) & uint(-int(most > 0u)));
     // Places are shuffled, too, or the shifts of one pair would tell those of the others.
     uint place = bitfieldReverse(laine_karras(bitfieldReverse(seed & 255u), s ^ 0x2545f491u));
     uvec2 shift = uvec2(0);

@@ -187,10 +187,10 @@ TEST_CASE("spectral: a prism of SF11 splits light by Snell's law") {
         mean += glm::dvec3(c) / double(image.color.size());
     INFO("rendered " << mean.x << " " << mean.y << " " << mean.z << ", expected " << expected.x << " " << expected.y
                      << " " << expected.z << "; without dispersion " << of_one_index);
-    const double noise = tracer == "embree" ? 2e-3 : 4e-3;
-    CHECK(largest((mean - expected) / expected) < noise);
+    const double noise = tracer == "embree" ? 2.6e-3 : 3.7e-3; // standard error of red; over 150 seeds
+    CHECK(largest((mean - expected) / expected) < 3 * noise);
     CHECK(expected.z - expected.x > 0.04 * expected.y); // blue is bent more
-    CHECK(std::abs((mean.z - mean.x) / (expected.z - expected.x) - 1) < 15 * noise);
+    CHECK(std::abs((mean.z - mean.x) - (expected.z - expected.x)) < 4 * noise * expected.y);
 }
 
 TEST_CASE("spectral: a scene of greys is rendered in RGB, bit by bit") {
