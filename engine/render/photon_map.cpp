@@ -19,8 +19,8 @@ constexpr double alpha = 2.0 / 3;       // of the squared radius that a map leav
 constexpr std::size_t neighbours = 5;   // photons within the first radius, at the median photon
 constexpr double most_gain = 16, least_needed = 1.0 / 16;
 constexpr std::uint32_t maps_together = 8;
-// Mean share of the light in a picture from which photons pay: of light that paths find by chance, and of light that
-// they never find.
+// From where photons pay (PhotonPilot::Findings). They take about a third more time for a sample. What paths never find
+// is worth more than time.
 constexpr double found_pays = 0.25, never_pays = 0.001;
 constexpr double small = 0.1; // solid angle [sr] of a light, seen from casters, below which paths rarely find it
 
@@ -243,7 +243,7 @@ Result<void> CausticPhotons::use(PhotonStarts starts) {
 Result<void> CausticPhotons::begin_pilot() { return begin_maps({0, 1}, 0, pilot_paths); }
 
 Result<void> CausticPhotons::learn(const GpuScene& scene, const PhotonPilot& pilot, bool all) {
-    const auto findings = pilot.findings();
+    const auto findings = pilot.findings(1e-6f * (head_.scene_radius + glm::length(head_.center)));
     if (!all && findings.found < found_pays && findings.never < never_pays)
         return start(scene, std::vector<char>(is_caster_.size()), all);
     PhotonStarts starts(sources_.size());
@@ -310,7 +310,7 @@ float CausticPhotons::radius_of(std::uint32_t map) const {
 }
 
 Result<void> CausticPhotons::finish(const GpuScene& scene, const EmbreeScene& embree) {
-    if (maps_.first == 0 && !(first_radius_ > 0)) first_radius_ = nearby(photons_[0]) * float(std::sqrt(needed_));
+    if (maps_.first == 0 && !(first_radius_ > 0)) first_radius_ = nearby(photons_[0]) * float(std::pow(needed_, 0.25));
     const PhotonBorders borders{scene, embree, is_caster_};
     std::size_t most = 0;
     for (std::uint32_t k = 0; k < maps_.count; ++k) {

@@ -4,7 +4,7 @@
 #include "render/point_grid.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <numbers>
 
 namespace restage::render {
@@ -14,7 +14,14 @@ constexpr std::size_t together = 16; // camera paths, of neighbouring pixels
 
 float mean(const glm::vec3& c) { return (c.x + c.y + c.z) / 3; }
 
+std::uint32_t depth_of(const shared::PathState& path) { return path.flags & PATH_DEPTH_MASK; }
+
 } // namespace
+
+// By a delta lobe, or through a lamp without a surface.
+bool PhotonPilot::goes_on(const Hit& hit, const shared::PathState& path) {
+    return (path.flags & PATH_SPECULAR) != 0 || depth_of(path) == hit.depth;
+}
 
 void PhotonPilot::begin(std::uint32_t paths) { hits_.assign(paths, {}); }
 
@@ -25,8 +32,7 @@ void PhotonPilot::before_bounce(std::span<const std::uint32_t> active) {
         const shared::RayHit& ray = rays[i];
         hits_[i] = {};
         if (ray.tfar > 0 && ray.inst != NONE)
-            hits_[i] = {ray.origin + ray.direction * ray.tfar, ray.inst, paths[i].flags & PATH_DEPTH_MASK,
-                        mean(paths[i].throughput)};
+            hits_[i] = {ray.origin + ray.direction * ray.tfar, ray.inst, depth_of(paths[i]), mean(paths[i].throughput)};
     }
 }
 
@@ -35,7 +41,7 @@ void PhotonPilot::after_camera_bounce(std::span<const std::uint32_t> active) {
     const auto paths = wave_.paths();
     for (const std::uint32_t i : active) {
         const bool lives = rays[i].tfar > 0;
-        if (hits_[i].instance == NONE || (lives && (paths[i].flags & PATH_SPECULAR))) continue;
+        if (hits_[i].instance == NONE || (lives && goes_on(hits_[i], paths[i]))) continue;
         vertices_.push_back({hits_[i].p, i, lives ? std::abs(mean(paths[i].throughput)) : 0.f});
     }
 }
@@ -63,59 +69,60 @@ void PhotonPilot::after_photon_bounce(std::span<const std::uint32_t> active, std
         shadows[i].tfar = -1; // kernels of paths look for light
         const Hit& hit = hits_[i];
         if (hit.instance == NONE) continue;
-        const bool lives = rays[i].tfar > 0, delta = lives && (paths[i].flags & PATH_SPECULAR);
-        const bool caster = casters[hit.instance];
-        if (delta && caster) continue;
+        const bool lives = rays[i].tfar > 0, straight = lives && goes_on(hit, paths[i]);
+        const bool passes = casters[hit.instance] != 0;
+        if (straight && (passes || depth_of(paths[i]) == hit.depth)) continue;
         rays[i].tfar = -1;
-        if (hit.depth > 0 && !delta && (lives || !caster))
+        if (hit.depth > 0 && !straight && (lives || !passes))
             deposits_.push_back({hit.p, i, starts_[i].power * hit.throughput});
     }
 }
 
-PhotonPilot::Findings PhotonPilot::findings() const {
+// At a vertex, by the photons around it, as if the surface were diffuse. Of a light of radiance L a path brings L times
+// its throughput or nothing, so the mean of the square is that times the mean.
+std::vector<PhotonPilot::Carried> PhotonPilot::carried(float least) const {
+    const auto place = [&](std::size_t i) { return deposits_[i].p; };
+    const float radius = std::max(spacing(deposits_.size(), place, 10, 0.5), least);
+    const PointGrid grid(deposits_.size(), radius, place);
+    const double per_power = 1 / (double(starts_.size()) * std::numbers::pi * std::numbers::pi * radius * radius);
+    std::vector<Carried> all(light_.size());
+    for (const Vertex& v : vertices_)
+        grid.near(v.p, [&](std::uint32_t i) {
+            const Deposit& d = deposits_[i];
+            if (!(glm::distance(d.p, v.p) < radius)) return;
+            const double light = v.throughput * d.power * per_power, radiance = starts_[d.photon].radiance;
+            Carried& of_path = all[v.path];
+            (radiance > 0 ? of_path.found : of_path.never) += light;
+            of_path.found_squared += light * v.throughput * radiance;
+        });
+    return all;
+}
+
+PhotonPilot::Findings PhotonPilot::findings(float least) const {
     Findings all;
     std::vector<char> seen(starts_.size());
     if (!deposits_.empty() && !vertices_.empty()) {
-        const auto vertex = [&](std::size_t i) { return vertices_[i].p; };
-        const auto deposit = [&](std::size_t i) { return deposits_[i].p; };
-        mark_seen(spacing(vertices_.size(), vertex, 4, 0.9), seen);
-        const float radius = spacing(deposits_.size(), deposit, 10, 0.5);
-        const PointGrid grid(deposits_.size(), radius, deposit);
-        // Radiance that a diffuse vertex would send back. A path that finds it finds all of the light's radiance at
-        // once: its square's mean is the product.
-        struct Carried {
-            double found = 0, found_squared = 0, never = 0;
-        };
-        std::vector<Carried> carried(light_.size());
-        const double per_power = 1 / (double(starts_.size()) * std::numbers::pi * std::numbers::pi * radius * radius);
-        for (const Vertex& v : vertices_)
-            grid.near(v.p, [&](std::uint32_t i) {
-                const Deposit& d = deposits_[i];
-                if (glm::distance(d.p, v.p) >= radius) return;
-                const double c = v.throughput * d.power * per_power, radiance = starts_[d.photon].radiance;
-                Carried& sum = carried[v.path];
-                (radiance > 0 ? sum.found : sum.never) += c;
-                sum.found_squared += c * v.throughput * radiance;
-            });
-        double photons = 0, found = 0, never = 0, parts = 0, mean_light = 0;
-        for (float l : light_)
-            mean_light += l / double(light_.size());
-        for (std::size_t first = 0; first + together <= light_.size(); first += together, ++parts) {
-            double light = 0, v = 0;
+        mark_seen(least, seen);
+        const std::vector<Carried> by_path = carried(least);
+        const std::size_t paths = std::min(together, light_.size()), parts = light_.size() / paths;
+        for (std::size_t part = 0; part < parts; ++part) {
             Carried c;
-            for (std::size_t k = first; k < first + together; ++k) {
-                light += light_[k] / together;
-                if (k > first) v += 0.5 * (light_[k] - light_[k - 1]) * (light_[k] - light_[k - 1]) / (together - 1);
-                c.found += carried[k].found / together, c.found_squared += carried[k].found_squared / together,
-                    c.never += carried[k].never / together;
+            double light = 0, variance = 0;
+            for (std::size_t k = part * paths; k < (part + 1) * paths; ++k) {
+                c.found += by_path[k].found / double(paths);
+                c.never += by_path[k].never / double(paths);
+                c.found_squared += by_path[k].found_squared / double(paths);
+                light += double(light_[k]) / double(paths);
+                if (k == part * paths) continue;
+                const double step = double(light_[k]) - light_[k - 1]; // neighbours: less of it is the picture's
+                variance += 0.5 * step * step / double(paths - 1);
             }
-            const double all_light = light + c.found + c.never + 0.01 * mean_light;
-            const double both = c.found + c.never;
-            if (both > 0) photons += both * both / (both * both + v);
-            if (c.found_squared > 0) found += c.found_squared / (c.found_squared + v);
-            never += c.never / all_light;
+            const double carried = c.found + c.never;
+            if (!(carried > 0)) continue;
+            if (c.found > 0) all.found += c.found_squared / (c.found_squared + variance) / double(parts);
+            all.never += c.never / (carried + std::max(light, 0.0)) / double(parts);
+            all.photons += carried * carried / (carried * carried + variance) / double(parts);
         }
-        all.found = found / parts, all.photons = photons / parts, all.never = never / parts;
     }
     for (std::size_t i = 0; i < starts_.size(); ++i)
         all.tries.push_back({starts_[i].cell, seen[i] != 0});
@@ -123,8 +130,10 @@ PhotonPilot::Findings PhotonPilot::findings() const {
 }
 
 // Photons that fell so near to a vertex that a path may meet them.
-void PhotonPilot::mark_seen(float distance, std::span<char> seen) const {
-    const PointGrid grid(vertices_.size(), distance, [&](std::size_t i) { return vertices_[i].p; });
+void PhotonPilot::mark_seen(float least, std::span<char> seen) const {
+    const auto place = [&](std::size_t i) { return vertices_[i].p; };
+    const float distance = std::max(spacing(vertices_.size(), place, 4, 0.9), least);
+    const PointGrid grid(vertices_.size(), distance, place);
     for (const Deposit& d : deposits_) {
         bool near = false;
         grid.near(d.p, [&](std::uint32_t i) { near |= glm::distance(vertices_[i].p, d.p) < distance; });

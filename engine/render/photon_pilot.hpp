@@ -24,18 +24,20 @@ class PhotonPilot {
     void before_bounce(std::span<const std::uint32_t> active);
     void after_camera_bounce(std::span<const std::uint32_t> active);
     void end_camera();
-    // After the kernel that starts photons, which left their cells and sources in their deposits.
+    // After the kernel that starts photons, which left their cells and their lights' radiance in their deposits.
     void photons_started(std::span<const shared::Photon> deposits);
     void after_photon_bounce(std::span<const std::uint32_t> active, std::span<const char> casters);
 
-    // What photons would do for the picture, and which of them.
+    // What photons would do for the picture, and which of them. Noise is that of one sample of a pixel.
     struct Findings {
-        double found = 0; // of the noise that paths have, what is from light that photons would carry
-        double never = 0; // of the picture, what is light that photons would carry and paths never find
-        double photons = 0; // of the noise, if one photon were met at each vertex, what were the photons'
+        double found = 0; // mean over the picture of: of the noise of paths, the part that photons would carry
+        double never = 0; // mean over the picture of: of its light, what photons would carry and paths never find
+        double photons = 0; // mean over the picture of: of the noise, the part that would be that of photons if each
+                            // vertex met one of them
         std::vector<PhotonStarts::Try> tries;
     };
-    Findings findings() const;
+    // least: of distances, for which the scene is large enough to have cells.
+    Findings findings(float least) const;
 
   private:
     struct Hit { // the last one of a path
@@ -58,7 +60,13 @@ class PhotonPilot {
         std::uint32_t photon = 0;
         float power = 0;
     };
-    void mark_seen(float distance, std::span<char> seen) const;
+    struct Carried { // light of a path that photons would carry, by its means
+        double found = 0, never = 0; // of lights that paths can meet, and of others
+        double found_squared = 0; // of the path that finds it by chance
+    };
+    static bool goes_on(const Hit&, const shared::PathState&);
+    std::vector<Carried> carried(float least) const;
+    void mark_seen(float least, std::span<char> seen) const;
 
     WaveMemory& wave_;
     std::vector<Hit> hits_; // by path

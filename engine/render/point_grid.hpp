@@ -6,6 +6,7 @@
 #include "shared/photon_data.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -64,15 +65,18 @@ struct PointGrid {
     glm::ivec3 cell_of(const glm::vec3& p) const { return glm::ivec3(glm::floor(p * per_cell)); }
     std::uint32_t hash(const glm::ivec3& c) const { return shared::photon_cell_hash(c.x, c.y, c.z) & mask; }
 
-    // Calls f(i) for the points of the 27 cells around p, and for some others; cell by cell, as hashes are not unique.
+    // Calls f(i) once for each point of the 27 cells around p, and for some others.
     template <class F>
     void near(const glm::vec3& p, F&& f) const {
         const glm::ivec3 c = cell_of(p);
-        for (int k = 0; k < 27; ++k) {
-            const std::uint32_t h = hash(c + glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1);
-            for (std::uint32_t i = first[h]; i < first[h + 1]; ++i)
+        std::array<std::uint32_t, 27> hashes{};
+        for (int k = 0; k < 27; ++k)
+            hashes[std::size_t(k)] = hash(c + glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1);
+        std::ranges::sort(hashes);
+        const auto end = std::ranges::unique(hashes).begin();
+        for (auto h = hashes.begin(); h != end; ++h)
+            for (std::uint32_t i = first[*h]; i < first[*h + 1]; ++i)
                 f(order[i]);
-        }
     }
 };
 
