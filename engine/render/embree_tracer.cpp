@@ -47,7 +47,7 @@ class EmbreeTracer final : public Tracer {
         RESTAGE_CHECK(embree_->update(scene, changes));
         if (!changes.shaders) return {};
         guided_.use = gathering_.use = std::nullopt;
-        return kernels_.select(scene, {.photons = always_photons(scene)});
+        return kernels_.select(scene, {.photons = c_.stand_ins});
     }
     bool adopt() override { return kernels_.adopt(); }
     std::optional<CompileProgress> compiling() const override { return kernels_.compiling(); }
@@ -67,7 +67,7 @@ class EmbreeTracer final : public Tracer {
             RESTAGE_CHECK(choose_kernels(scene, request.guiding));
             RESTAGE_TRY(going, running_->begin(request.keep_going));
         }
-        if (going && scene.features().caustics && caustics_.active()) {
+        if (going && photons(scene)) {
             RESTAGE_CHECK(trace_maps(scene, film, request));
         } else if (going) {
             RESTAGE_CHECK(trace_samples(scene, film, request));
@@ -80,11 +80,11 @@ class EmbreeTracer final : public Tracer {
     // photons, once it is known that they pay. But an editor's stand-ins are replaced one by one, in one set of
     // kernels.
     Result<void> choose_kernels(const GpuScene& scene, const Guiding* guiding) {
+        const KernelUse use{.guiding = guiding && guiding->address(), .photons = photons(scene)};
         running_ = &kernels_;
-        if (guiding && guiding->address()) return choose(scene, {.guiding = true, .photons = caustics_.active()});
-        if (caustics_.active() && !always_photons(scene)) return choose(scene, {.photons = true});
-        return {};
+        return use.guiding || (use.photons && !c_.stand_ins) ? choose(scene, use) : Result<void>{};
     }
+    bool photons(const GpuScene& scene) const { return scene.features().caustics && caustics_.active(); }
     Result<void> choose(const GpuScene& scene, KernelUse use) {
         auto& special = use.guiding ? guided_ : gathering_;
         if (!special.kernels) {
@@ -99,7 +99,6 @@ class EmbreeTracer final : public Tracer {
         running_ = special.kernels.get();
         return {};
     }
-    bool always_photons(const GpuScene& scene) const { return c_.stand_ins || scene.all_caustics(); }
 
     Result<void> finish(const GpuScene& scene, Clock::time_point start) {
         stats_.seconds += seconds_since(start);

@@ -44,7 +44,8 @@ TEST_CASE("caustics: auto leaves to paths what they can find and the picture har
     INFO((surface ? "a surface" : "a point") << " shines, and the picture sees " << (edge ? "the edge" : "the middle"));
     SceneBuilder b;
     mirror_and_lamp(b, surface);
-    const glm::dvec3 at(1.5, edge ? -1.58 : 0, 0); // the mirror lights |y| < 0.875 there; the picture's half side is 0.73
+    const glm::dvec3 at(1.5, edge ? -1.58 : 0,
+                        0); // the mirror lights |y| < 0.875 there; the picture's half side is 0.73
     b.set_camera(at + glm::dvec3(0, 0, 2), at, {0, 1, 0}, 40);
     const auto off = with(b, scene::Technique::off);
     CHECK((with(b, scene::Technique::automatic).color == off.color) == (surface && edge));
