@@ -16,6 +16,7 @@ namespace restage::render {
 namespace {
 
 constexpr double alpha = 2.0 / 3;       // of the squared radius that a map leaves: Knaus and Zwicker 2011, sec. 5
+constexpr std::size_t probes = 256;     // photons whose neighbours are looked for
 constexpr std::size_t neighbours = 5;   // photons within the first radius, at the median photon
 constexpr double most_gain = 16, least_needed = 1.0 / 16;
 constexpr std::uint32_t maps_together = 8;
@@ -298,7 +299,8 @@ void CausticPhotons::collect(std::span<const std::uint32_t> paths) {
 // By the distances between photons: where most of them are there are many, and little blur is needed.
 float CausticPhotons::nearby(std::span<const shared::Photon> photons) const {
     if (photons.size() <= neighbours) return 0.01f * head_.scene_radius;
-    const float distance = spacing(photons.size(), [&](std::size_t i) { return photons[i].p; }, neighbours, 0.5);
+    const float distance =
+        spacing(photons.size(), [&](std::size_t i) { return photons[i].p; }, neighbours, 0.5, probes);
     return std::clamp(distance, 1e-6f * head_.scene_radius, 0.05f * head_.scene_radius);
 }
 

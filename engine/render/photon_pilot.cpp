@@ -10,6 +10,7 @@
 namespace restage::render {
 namespace {
 
+constexpr std::size_t probes = 64;   // of distances
 constexpr std::size_t together = 16; // camera paths, of neighbouring pixels
 
 float mean(const glm::vec3& c) { return (c.x + c.y + c.z) / 3; }
@@ -82,7 +83,7 @@ void PhotonPilot::after_photon_bounce(std::span<const std::uint32_t> active, std
 // its throughput or nothing, so the mean of the square is that times the mean.
 std::vector<PhotonPilot::Carried> PhotonPilot::carried(float least) const {
     const auto place = [&](std::size_t i) { return deposits_[i].p; };
-    const float radius = std::max(spacing(deposits_.size(), place, 10, 0.5), least);
+    const float radius = std::max(spacing(deposits_.size(), place, 10, 0.5, probes), least);
     const PointGrid grid(deposits_.size(), radius, place);
     const double per_power = 1 / (double(starts_.size()) * std::numbers::pi * std::numbers::pi * radius * radius);
     std::vector<Carried> all(light_.size());
@@ -132,7 +133,7 @@ PhotonPilot::Findings PhotonPilot::findings(float least) const {
 // Photons that fell so near to a vertex that a path may meet them.
 void PhotonPilot::mark_seen(float least, std::span<char> seen) const {
     const auto place = [&](std::size_t i) { return vertices_[i].p; };
-    const float distance = std::max(spacing(vertices_.size(), place, 4, 0.9), least);
+    const float distance = std::max(spacing(vertices_.size(), place, 4, 0.9, probes), least);
     const PointGrid grid(vertices_.size(), distance, place);
     for (const Deposit& d : deposits_) {
         bool near = false;

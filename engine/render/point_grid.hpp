@@ -15,12 +15,13 @@
 
 namespace restage::render {
 
-// The distance of a point to its nth neighbour: the quantile of 256 of the points. place(i): the position of point i.
+// The distance of a point to its nth neighbour: the quantile of so many of the points. place(i): the position of point
+// i.
 template <class Place>
-float spacing(std::size_t points, Place&& place, std::size_t nth, double quantile) {
+float spacing(std::size_t points, Place&& place, std::size_t nth, double quantile, std::size_t probes) {
     if (points == 0) return 0;
     nth = std::min(nth, points - 1);
-    std::vector<float> distances(std::min<std::size_t>(256, points)), all(points);
+    std::vector<float> distances(std::min(probes, points)), all(points);
     for (std::size_t k = 0; k < distances.size(); ++k) {
         const glm::vec3 p = place(k * points / distances.size());
         for (std::size_t i = 0; i < points; ++i) {

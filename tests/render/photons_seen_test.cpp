@@ -89,9 +89,9 @@ TEST_CASE("points in space: neighbours are found once each, and their distance")
     for (int i = 0; i < 1000; ++i)
         points.emplace_back(i % 10, i / 10 % 10, i / 100);
     const auto place = [&](std::size_t i) { return points[i]; };
-    CHECK(render::spacing(points.size(), place, 1, 0.5) == 1);
-    CHECK(render::spacing(0, place, 1, 0.5) == 0);
-    CHECK(render::spacing(1, place, 4, 0.9) == 0);
+    CHECK(render::spacing(points.size(), place, 1, 0.5, 64) == 1);
+    CHECK(render::spacing(0, place, 1, 0.5, 64) == 0);
+    CHECK(render::spacing(1, place, 4, 0.9, 64) == 0);
     const std::uint32_t mask = GENERATE(0u, 63u, 1023u); // with many cells of one hash, and few
     const render::PointGrid grid(points.size(), mask, 1.5f, place);
     for (const glm::vec3& p : {glm::vec3(4.5f), glm::vec3(0), glm::vec3(-0.7f, 9.3f, 5)}) {
