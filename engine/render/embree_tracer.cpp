@@ -200,11 +200,9 @@ class EmbreeTracer final : public Tracer {
     // Which instances have delta lobes is known only to materials: camera paths find out, whose samples do not count.
     // Then photons that do not count tell whether any are seen.
     Result<bool> look_for_caustics(const GpuScene& scene, const Film& film, const TraceRequest& request) {
-        // With kernels that are likely to be needed afterwards.
-        const bool all = scene.all_caustics(),
-                   likely = all || scene.sunny() || (scene.features().lights & LIGHTS_LAMPS) != 0;
+        const bool all = scene.all_caustics(); // then kernels that gather are needed anyway
         running_ = &kernels_;
-        if (likely && !c_.stand_ins) RESTAGE_CHECK(choose(scene, {.photons = true}));
+        if (all && !c_.stand_ins) RESTAGE_CHECK(choose(scene, {.photons = true}));
         RESTAGE_TRY(bool going, running_->begin(request.keep_going));
         if (!going) return false;
         PhotonPilot pilot(memory_);
