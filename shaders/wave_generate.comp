@@ -22,7 +22,8 @@ void main() {
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
     store_path(frame.paths, frame.fourths, i, path);
     float hero = -1.0;
-    if (HAS_CAUSTICS) hero = PhotonMapRef(frame.photons).map.hero;
+    uint nth;
+    if (HAS_CAUSTICS) hero = photon_run(PhotonMapRef(frame.photons).map, pick.sample_index, nth).hero;
     store_begin(frame.paths, frame.fourths, i, path, hero);
     if (HAS_GUIDES) GuideArray(frame.guides).at[i] = guide_nothing(path.throughput.x);
 }

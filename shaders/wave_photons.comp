@@ -12,7 +12,10 @@
 struct Start {
     vec3 origin, direction;
     Spectrum power; // of what left the light there, over the density of having chosen it
+    float radiance; // mean of the colours; 0: a lamp that no path can meet
 };
+
+float mean_color(Spectrum s) { return dot(s, Spectrum(1)) / dot(Spectrum(1), Spectrum(1)); }
 
 float cone_solid_angle(CasterSphere c, vec3 p) {
     vec3 d = c.center - p;
@@ -83,12 +86,12 @@ vec3 aim_parallel(PhotonMap map, vec3 direction, vec2 u, out float pdf) {
 Start start_parallel(PhotonMap map, vec3 direction, Spectrum irradiance, vec2 u) {
     float pdf;
     vec3 origin = aim_parallel(map, direction, u, pdf);
-    return Start(origin, direction, irradiance / pdf);
+    return Start(origin, direction, irradiance / pdf, 0.0);
 }
 
 // Radiance from direction wi over its density. One in four is uniform over the sphere: the densities of light sampling leave
 // what is darker than the mean to paths (make_environment_map).
-Spectrum start_at_environment(EnvironmentData env, uvec2 bits, out vec3 wi) {
+Spectrum start_at_environment(EnvironmentData env, uvec2 bits, out vec3 wi, out float mean_radiance) {
     const uint uniform_ones = 1u << 30;
     Spectrum radiance;
     float pdf;
@@ -101,6 +104,7 @@ Spectrum start_at_environment(EnvironmentData env, uvec2 bits, out vec3 wi) {
         radiance = e.radiance;
         pdf = e.pdf;
     }
+    mean_radiance = mean_color(radiance);
     return radiance / mix(pdf, 0.25 * INV_PI, 0.25);
 }
 
@@ -146,23 +150,34 @@ Start start_on_surface(SceneData scene, PhotonMap map, LightData light, uint ind
     aim(map, q, u, s.direction, pdf);
     float c = dot(n, s.direction);
     if ((light.kind & LIGHT_TWO_SIDED) != 0u) c = abs(c);
+    s.radiance = mean_color(radiance);
     s.power = c > 0.0 ? radiance * (area * c / pdf) : Spectrum(0);
     s.origin = offset_origin(q, n, scene.ray_epsilon > 0.0 ? scene.ray_epsilon : light_offset(light, q, 0.0), s.direction);
     return s;
 }
 
-Start start_photon(SceneData scene, PhotonMap map, uint index) {
-    uvec2 pick = sample_bits(map.seed, index, PAIR_FILTER), place = sample_bits(map.seed, index, pair_light(0u));
-    vec2 u = sample_pair(map.seed, index, PAIR_LENS);
-    CdfDraw draw = cdf_draw(map.source_cdf, map.source_count, pick.x);
+// Three numbers choose a photon's source and where at the casters it aims. Their unit cube has cells, which are chosen by
+// how many photons from them are seen (PhotonPilot).
+Start start_photon(SceneData scene, PhotonMap map, uint seed, uint index, out uint cell) {
+    uvec2 pick = sample_bits(seed, index, PAIR_FILTER), place = sample_bits(seed, index, pair_light(0u));
+    vec2 u = sample_pair(seed, index, PAIR_LENS);
+    uint side = map.start_side, rows = map.start_rows, cells = rows * side * side;
+    CdfDraw start = cdf_draw(map.starts, cells, pick.x);
+    cell = start.index;
+    float share = float(start.end - start.start) * (float(cells) / 4294967296.0);
+    u = min((vec2(cell % side, cell / side % side) + u) / float(side), vec2(0.99999994));
+    uint row = 0xffffffffu / rows + 1u; // 0 if there is one
+    CdfDraw draw = cdf_draw(map.source_cdf, map.source_count, cell / (side * side) * row + pick.y / rows);
     PhotonSource source = PhotonSourceArray(map.sources).at[draw.index];
     LightData light = LightArray(scene.lights).at[source.light];
     uint kind = light.kind & 255u;
-    Start s = Start(vec3(0), vec3(0, 0, 1), Spectrum(0));
+    Start s = Start(vec3(0), vec3(0, 0, 1), Spectrum(0), 0.0);
     if (HAS_ENVIRONMENT && kind == LIGHT_ENVIRONMENT) {
         vec3 wi;
-        Spectrum irradiance = start_at_environment(scene.environment, place, wi);
+        float radiance;
+        Spectrum irradiance = start_at_environment(scene.environment, place, wi, radiance);
         s = start_parallel(map, -wi, irradiance, u);
+        s.radiance = radiance;
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP && lamp_is_parallel(kind - LIGHT_LAMP)) {
         s = start_parallel(map, light.b, stored_spectrum(light.value), u);
     } else if (HAS_LAMPS && kind >= LIGHT_LAMP) {
@@ -173,7 +188,7 @@ Start start_photon(SceneData scene, PhotonMap map, uint index) {
     } else if (HAS_LAMP_SURFACES) {
         s = start_on_surface(scene, map, light, source.light, vec2(to_unit(place.x), to_unit(place.y)), u);
     }
-    s.power /= source.pmf;
+    s.power /= source.pmf * share;
     return s;
 }
 
@@ -182,11 +197,15 @@ void main() {
     FrameData frame = FrameRef(push.frame).frame;
     SceneData scene = wave_scene();
     PhotonMap map = PhotonMapRef(frame.photons).map;
-    uint index = map.first_path + i;
+    uint index = map.first_path + i, nth = index / map.paths;
+    index -= nth * map.paths;
+    PhotonRun run = PhotonRunArray(map.runs).at[nth];
 #ifdef RESTAGE_SPECTRAL
-    spectral_begin(scene, map.hero);
+    spectral_begin(scene, run.hero);
 #endif
-    Start s = start_photon(scene, map, index);
+    uint cell;
+    Start s = start_photon(scene, map, run.seed, index, cell);
+    PhotonArray(map.deposits).at[i] = Photon(vec3(0), cell, vec4(-1, s.radiance, 0, 0), 0u); // for PhotonPilot
     bool alive = finite(s.power) && positive(max_component(s.power));
     RayArray rays = RayArray(frame.rays);
     rays.at[i].origin = s.origin;
@@ -194,7 +213,7 @@ void main() {
     rays.at[i].tfar = alive ? INFINITE : -1.0;
     rays.at[i].tnear = 0.0;
     ShadowArray(frame.shadows).at[i].tfar = -1.0;
-    PathState path = PathState(Spectrum(1), 0.0, s.power, PATH_PHOTON | PATH_SPECULAR, 1.0, scene.camera_medium, map.seed, index);
+    PathState path = PathState(Spectrum(1), 0.0, s.power, PATH_PHOTON | PATH_SPECULAR, 1.0, scene.camera_medium, run.seed, index);
     store_path(frame.paths, frame.fourths, i, path);
-    store_begin(frame.paths, frame.fourths, i, path, map.hero);
+    store_begin(frame.paths, frame.fourths, i, path, run.hero);
 }

@@ -5,6 +5,7 @@
 #include "render/embree_scene.hpp"
 #include "render/guiding.hpp"
 #include "render/photon_map.hpp"
+#include "render/photon_pilot.hpp"
 #include "render/sample_plan.hpp"
 #include "render/wave_kernels.hpp"
 #include "render/wave_queues.hpp"
@@ -44,8 +45,9 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> update(const GpuScene& scene, const SceneChanges& changes) override {
         RESTAGE_CHECK(embree_->update(scene, changes));
-        if (changes.shaders) guided_kernels_.reset();
-        return changes.shaders ? kernels_.select(scene) : Result<void>{};
+        if (!changes.shaders) return {};
+        guided_.use = gathering_.use = std::nullopt;
+        return kernels_.select(scene, {.photons = c_.stand_ins});
     }
     bool settled() const override { return embree_->settled(); }
     Result<void> settle() override { return embree_->settle(); }
@@ -58,13 +60,16 @@ class EmbreeTracer final : public Tracer {
 
     Result<void> trace(const GpuScene& scene, Film& film, const TraceRequest& request) override {
         const auto start = Clock::now();
-        RESTAGE_CHECK(choose_kernels(scene, request.guiding));
         learning_ = false;
-        RESTAGE_TRY(bool going, running_->begin(request.keep_going));
-        if (going && scene.features().caustics && !caustics_.started()) {
-            RESTAGE_TRY(going, find_casters(scene, film, request));
+        bool going = true;
+        if (scene.features().caustics && !caustics_.started()) {
+            RESTAGE_TRY(going, look_for_caustics(scene, film, request));
         }
-        if (going && scene.features().caustics && caustics_.active()) {
+        if (going) {
+            RESTAGE_CHECK(choose_kernels(scene, request.guiding));
+            RESTAGE_TRY(going, running_->begin(request.keep_going));
+        }
+        if (going && photons(scene)) {
             RESTAGE_CHECK(trace_maps(scene, film, request));
         } else if (going) {
             RESTAGE_CHECK(trace_samples(scene, film, request));
@@ -73,17 +78,27 @@ class EmbreeTracer final : public Tracer {
     }
 
   private:
-    // Guided paths have kernels of their own, which are made when the first map is.
+    // Guided paths have kernels of their own, which are made when the first map is; and so have paths that gather
+    // photons, once it is known that they pay. But an editor's stand-ins are replaced one by one, in one set of
+    // kernels.
     Result<void> choose_kernels(const GpuScene& scene, const Guiding* guiding) {
+        const KernelUse use{.guiding = guiding && guiding->address(), .photons = photons(scene)};
         running_ = &kernels_;
-        if (!guiding || !guiding->address()) return {};
-        if (!guided_kernels_) {
+        return use.guiding || (use.photons && !c_.stand_ins) ? choose(scene, use) : Result<void>{};
+    }
+    bool photons(const GpuScene& scene) const { return scene.features().caustics && caustics_.active(); }
+    Result<void> choose(const GpuScene& scene, KernelUse use) {
+        auto& special = use.guiding ? guided_ : gathering_;
+        if (!special.kernels) {
             TracerContext context = c_;
             context.stand_ins = false;
-            guided_kernels_ = std::make_unique<WaveKernels>(context);
-            RESTAGE_CHECK(guided_kernels_->select(scene, true));
+            special.kernels = std::make_unique<WaveKernels>(context);
         }
-        running_ = guided_kernels_.get();
+        if (special.use != use) {
+            RESTAGE_CHECK(special.kernels->select(scene, use));
+            special.use = use;
+        }
+        running_ = special.kernels.get();
         return {};
     }
 
@@ -135,44 +150,49 @@ class EmbreeTracer final : public Tracer {
         for (const PixelSamples& s : asked)
             if (s.count > 0) first = std::min(first, s.first), end = std::max(end, s.first + s.count);
         std::vector<PixelSamples> part(asked.size());
-        for (std::uint32_t map = first / per_map; map * per_map < end; ++map) {
+        for (std::uint32_t map = first / per_map; map * per_map < end;) {
+            const auto maps = caustics_.maps_with(map, pixels);
             const auto clip = [&](const PixelSamples& s) {
-                const std::uint32_t from = std::max(s.first, map * per_map);
-                const std::uint32_t to = std::min(s.first + s.count, (map + 1) * per_map);
+                const std::uint32_t from = std::max(s.first, maps.first * per_map);
+                const std::uint32_t to = std::min(s.first + s.count, (maps.first + maps.count) * per_map);
                 return PixelSamples{from, to > from ? to - from : 0};
             };
             std::ranges::transform(asked, part.begin(), clip);
-            TraceRequest of_map = request;
+            TraceRequest of_maps = request;
             if (request.pixels.empty())
-                of_map.first_sample = part[0].first, of_map.samples = part[0].count;
+                of_maps.first_sample = part[0].first, of_maps.samples = part[0].count;
             else
-                of_map.pixels = part;
-            RESTAGE_TRY(bool going, shoot(scene, film, request, map));
+                of_maps.pixels = part;
+            RESTAGE_TRY(bool going, shoot(scene, film, request, maps));
             if (going) {
-                RESTAGE_TRY(going, trace_samples(scene, film, of_map));
+                RESTAGE_TRY(going, trace_samples(scene, film, of_maps));
             }
             if (!going) return false;
+            map = maps.first + maps.count;
         }
         return true;
     }
 
-    // Makes photon map `map` unless it is there.
-    Result<bool> shoot(const GpuScene& scene, const Film& film, const TraceRequest& request, std::uint32_t map) {
-        if (caustics_.has(map, request.seed)) return true;
-        if (map > 0 && !caustics_.knows_radius(request.seed)) {
-            RESTAGE_TRY(const bool going, shoot(scene, film, request, 0));
+    // Makes these photon maps unless they are there.
+    Result<bool> shoot(const GpuScene& scene, const Film& film, const TraceRequest& request,
+                       const CausticPhotons::Maps& maps) {
+        if (caustics_.has(maps, request.seed)) return true;
+        const std::uint32_t pixels = film.width() * film.rows();
+        if (maps.first > 0 && !caustics_.knows_radius(request.seed)) {
+            RESTAGE_TRY(const bool going, shoot(scene, film, request, caustics_.maps_with(0, pixels)));
             if (!going) return false;
         }
         RESTAGE_TRY(const bool ready, running_->need_photons(request.keep_going));
         if (!ready || (request.keep_going && !request.keep_going())) return false;
-        const std::uint32_t paths = CausticPhotons::paths_per_map(film.width() * film.rows());
-        caustics_.begin(map, request.seed, paths);
-        for (std::uint32_t first = 0; first < paths; first += wave_paths) {
+        RESTAGE_CHECK(caustics_.begin(maps, request.seed, pixels));
+        for (std::uint64_t first = 0; first < caustics_.all(); first += wave_paths) {
             RESTAGE_CHECK(caustics_.next_wave(first));
             shared::FrameData f = frame_of(film, request);
             RESTAGE_CHECK(begin_wave(scene, f));
-            RESTAGE_TRY(const bool done, bounces(scene, running_->photons(), std::min(paths - first, wave_paths),
-                                                 request.keep_going, [&] { caustics_.collect(queues_.active()); }));
+            const auto count = std::uint32_t(std::min<std::uint64_t>(caustics_.all() - first, wave_paths));
+            RESTAGE_TRY(const bool done, bounces(
+                                             scene, running_->photons(), count, request.keep_going,
+                                             [&] { caustics_.collect(queues_.active()); }, [](std::uint32_t) {}));
             if (!done) return false;
         }
         RESTAGE_CHECK(caustics_.finish(scene, *embree_));
@@ -180,9 +200,30 @@ class EmbreeTracer final : public Tracer {
     }
 
     // Which instances have delta lobes is known only to materials: camera paths find out, whose samples do not count.
-    Result<bool> find_casters(const GpuScene& scene, const Film& film, const TraceRequest& request) {
-        const bool all = scene.all_caustics();
+    // Then photons that do not count tell whether any are seen.
+    Result<bool> look_for_caustics(const GpuScene& scene, const Film& film, const TraceRequest& request) {
+        const bool all = scene.all_caustics(); // then kernels that gather are needed anyway
+        running_ = &kernels_;
+        if (all && !c_.stand_ins) RESTAGE_CHECK(choose(scene, {.photons = true}));
+        RESTAGE_TRY(bool going, running_->begin(request.keep_going));
+        if (!going) return false;
+        PhotonPilot pilot(memory_);
         RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
+        const TraceStats before = stats_; // these are no samples
+        RESTAGE_TRY(going, find_casters(scene, film, request, pilot));
+        if (going) {
+            RESTAGE_CHECK(caustics_.start(scene, casters_, all));
+            if (caustics_.active()) {
+                RESTAGE_TRY(going, try_photons(scene, film, request, pilot));
+            }
+        }
+        stats_.rays = before.rays, stats_.shadow_rays = before.shadow_rays;
+        if (!going) caustics_.forget();
+        return going;
+    }
+
+    Result<bool> find_casters(const GpuScene& scene, const Film& film, const TraceRequest& request,
+                              PhotonPilot& pilot) {
         const std::uint32_t pixels = film.width() * film.height(), most = std::min(pixels, wave_paths / 16);
         std::vector<PixelSamples> some(std::size_t(film.width()) * film.rows());
         for (std::uint32_t k = 0; k < most; ++k)
@@ -190,21 +231,40 @@ class EmbreeTracer final : public Tracer {
         TraceRequest asked = request;
         asked.pixels = some;
         asked.seed = 0;
+        casters_.assign(scene.instances().size(), 0);
         SamplePlan plan(asked, film.width() * film.rows(), wave_paths, 1);
         if (!plan.next()) return true;
         shared::FrameData f = frame_of(film, asked);
         f.picks = memory_.place(plan);
         RESTAGE_CHECK(begin_wave(scene, f));
         hits_.look_for_casters(scene.instances().size());
-        const TraceStats before = stats_; // these are no samples
-        auto done = bounces(scene, running_->generate(), std::uint32_t(plan.picks().size()), request.keep_going, [] {});
-        std::vector<char> found = hits_.found_casters();
-        stats_.rays = before.rays, stats_.shadow_rays = before.shadow_rays;
-        if (!done || !*done) {
-            caustics_.forget();
-            return done;
-        }
-        RESTAGE_CHECK(caustics_.start(scene, std::move(found), all));
+        const auto count = std::uint32_t(plan.picks().size());
+        pilot.begin(count);
+        auto done = bounces(
+            scene, running_->generate(), count, request.keep_going,
+            [&] { pilot.after_camera_bounce(queues_.active()); },
+            [&](std::uint32_t) { pilot.before_bounce(queues_.active()); });
+        casters_ = hits_.found_casters();
+        pilot.end_camera();
+        return done;
+    }
+
+    Result<bool> try_photons(const GpuScene& scene, const Film& film, const TraceRequest& request, PhotonPilot& pilot) {
+        RESTAGE_TRY(const bool ready, running_->need_photons(request.keep_going));
+        if (!ready) return false;
+        RESTAGE_CHECK(caustics_.begin_pilot());
+        shared::FrameData f = frame_of(film, request);
+        RESTAGE_CHECK(begin_wave(scene, f));
+        pilot.begin(CausticPhotons::pilot_paths);
+        RESTAGE_TRY(const bool done, bounces(
+                                         scene, running_->photons(), CausticPhotons::pilot_paths, request.keep_going,
+                                         [&] { pilot.after_photon_bounce(queues_.active(), casters_); },
+                                         [&](std::uint32_t bounce) {
+                                             if (bounce == 0) pilot.photons_started(caustics_.deposits());
+                                             pilot.before_bounce(queues_.active());
+                                         }));
+        if (!done) return false;
+        RESTAGE_CHECK(caustics_.learn(scene, pilot, scene.all_caustics()));
         return true;
     }
 
@@ -217,7 +277,8 @@ class EmbreeTracer final : public Tracer {
         f.run_count = run_count;
         RESTAGE_CHECK(begin_wave(scene, f));
         stats_.paths += count;
-        RESTAGE_TRY(const bool done, bounces(scene, running_->generate(), count, keep_going, [] {}));
+        RESTAGE_TRY(const bool done,
+                    bounces(scene, running_->generate(), count, keep_going, [] {}, [](std::uint32_t) {}));
         if (!done) return false;
         RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, running_->accumulate(), 0, run_count); }));
         return true;
@@ -261,10 +322,12 @@ class EmbreeTracer final : public Tracer {
         return {};
     }
 
-    // Paths from the kernel that starts them to their ends; after_bounce: each time the active ones were shaded.
-    template <class AfterBounce>
+    // Paths from the kernel that starts them to their ends; after_bounce: each time the active ones were shaded;
+    // before_bounce: when their hits are known.
+    template <class AfterBounce, class BeforeBounce>
     Result<bool> bounces(const GpuScene& scene, const gpu::ComputePipeline& start, std::uint32_t count,
-                         const std::function<bool()>& keep_going, AfterBounce&& after_bounce) {
+                         const std::function<bool()>& keep_going, AfterBounce&& after_bounce,
+                         BeforeBounce&& before_bounce) {
         const std::uint32_t max_depth = scene.data().max_depth;
         RESTAGE_CHECK(submit([&](gpu::CommandList& list) { dispatch(list, start, 0, count); }));
         if (learning_) records_.begin(count);
@@ -277,6 +340,7 @@ class EmbreeTracer final : public Tracer {
                 if (!decided) return false;
             }
             if (learning_) records_.note(queues_.active(), memory_.paths(), memory_.rays(), c_.jobs);
+            before_bounce(bounce);
             queue_hits(scene);
             if (queues_.empty()) return true;
             RESTAGE_TRY(const bool ready, running_->need(queues_.counts(), keep_going));
@@ -371,7 +435,12 @@ class EmbreeTracer final : public Tracer {
     gpu::Buffer frame_;
     WaveKernels kernels_;
     CausticPhotons caustics_;
-    std::unique_ptr<WaveKernels> guided_kernels_; // where paths are guided
+    std::vector<char> casters_; // by instance
+    struct SpecialKernels {
+        std::unique_ptr<WaveKernels> kernels;
+        std::optional<KernelUse> use; // what they were selected for
+    };
+    SpecialKernels guided_, gathering_; // where paths are guided; where they gather photons, if not always
     WaveKernels* running_ = &kernels_;
     PathRecords records_; // of this wave, if
     bool learning_ = false;

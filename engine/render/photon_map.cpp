@@ -2,6 +2,7 @@
 #include "render/photon_map.hpp"
 
 #include "render/cdf_table.hpp"
+#include "render/point_grid.hpp"
 #include "scene/bounds.hpp"
 #include "shared/lamps.h"
 
@@ -15,8 +16,13 @@ namespace restage::render {
 namespace {
 
 constexpr double alpha = 2.0 / 3;       // of the squared radius that a map leaves: Knaus and Zwicker 2011, sec. 5
-constexpr std::size_t neighbours = 5;   // photons within the first radius, at the median photon
 constexpr std::size_t probes = 256;     // photons whose neighbours are looked for
+constexpr std::size_t neighbours = 5;   // photons within the first radius, at the median photon
+constexpr double most_gain = 16, least_needed = 1.0 / 16;
+constexpr std::uint32_t maps_together = 8;
+// From where photons pay (PhotonPilot::Findings). They take about a third more time for a sample. What paths never find
+// is worth more than time.
+constexpr double found_pays = 0.25, never_pays = 0.001;
 constexpr double small = 0.1; // solid angle [sr] of a light, seen from casters, below which paths rarely find it
 
 struct Box {
@@ -83,6 +89,12 @@ float hero_of(std::uint32_t map, std::uint32_t seed) {
     return 0.25f * (float(first >> 30) + float(set >> 8) * 0x1p-24f);
 }
 
+// Photons of a map, if they start everywhere.
+std::uint32_t started_everywhere(std::uint32_t pixels) {
+    const std::uint32_t enough = std::max(65536u, std::min(pixels / 4, 16 * WAVE_PATHS));
+    return std::clamp(2 * pixels, 4096u, enough) / 64 * 64;
+}
+
 template <class T>
 Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, std::span<const T> values, const char* name) {
     const std::size_t bytes = std::max<std::size_t>(values.size_bytes(), 16);
@@ -95,23 +107,24 @@ Result<void> fill(gpu::Device& device, gpu::Buffer& buffer, std::span<const T> v
 } // namespace
 
 std::uint32_t CausticPhotons::samples_per_map(std::uint32_t pixels) {
-    return std::clamp(paths_per_map(pixels) / std::max(2 * pixels, 1u), 1u, 16u);
+    return std::clamp(started_everywhere(pixels) / std::max(2 * pixels, 1u), 1u, 16u);
 }
 
-std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) {
-    const std::uint32_t enough = std::max(65536u, std::min(pixels / 4, 16 * WAVE_PATHS));
-    return std::clamp(2 * pixels, 4096u, enough) / 64 * 64;
+std::uint32_t CausticPhotons::paths_per_map(std::uint32_t pixels) const {
+    const double gain = std::clamp(starts_.gain, 1.0, most_gain);
+    return std::max(std::uint32_t(started_everywhere(pixels) * needed_ / gain) / 64 * 64, 64u);
 }
 
 Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> casters, bool all) {
     started_ = true;
     whole_ = false;
     first_radius_ = 0;
-    photons_.clear();
+    needed_ = 1;
     sources_.clear();
     casters_.clear();
     head_ = {};
-    head_.hero = -1;
+    head_.samples_per_map = 1;
+    runs_ = {{0, 1, -1}};
     Box world;
     std::vector<Box> boxes;
     const auto n = std::uint32_t(scene.instances().size());
@@ -164,6 +177,8 @@ Result<void> CausticPhotons::start(const GpuScene& scene, std::vector<char> cast
         RESTAGE_TRY(deposits_, device_.create_buffer(2 * WAVE_PATHS * sizeof(shared::Photon), gpu::BufferKind::readback,
                                                      "photons of a wave"));
     }
+    RESTAGE_CHECK(use(PhotonStarts(sources_.size())));
+    RESTAGE_CHECK(fill<shared::PhotonRun>(device_, run_buffer_, runs_, "maps of photons"));
     is_caster_ = std::move(casters);
     head_.center = glm::vec3(world.empty() ? glm::dvec3(0) : world.center());
     head_.scene_radius = world.empty() ? 1.f : float(world.radius() * 1.001);
@@ -219,48 +234,74 @@ void CausticPhotons::find_sources(const GpuScene& scene, const std::function<boo
     }
 }
 
-void CausticPhotons::begin(std::uint32_t map, std::uint32_t seed, std::uint32_t paths) {
-    if (seed != seed_) first_radius_ = 0;
-    map_ = map;
-    seed_ = seed;
-    whole_ = false;
-    photons_.clear();
-    head_.per_photon = 1.f / float(paths);
-    head_.seed = shared::pcg_hash(map ^ shared::pcg_hash(seed ^ 0x6c8e9cf5u));
-    head_.hero = hero_of(map, seed);
+Result<void> CausticPhotons::use(PhotonStarts starts) {
+    starts_ = std::move(starts);
+    head_.start_rows = starts_.rows;
+    head_.start_side = starts_.side;
+    return fill<shared::CdfEntry>(device_, start_buffer_, starts_.cdf, "starts of photons");
 }
 
-Result<void> CausticPhotons::next_wave(std::uint32_t first_path) {
+Result<void> CausticPhotons::begin_pilot() { return begin_maps({0, 1}, 0, pilot_paths); }
+
+Result<void> CausticPhotons::learn(const GpuScene& scene, const PhotonPilot& pilot, bool all) {
+    const auto findings = pilot.findings(1e-6f * (head_.scene_radius + glm::length(head_.center)));
+    if (!all && findings.found < found_pays && findings.never < never_pays)
+        return start(scene, std::vector<char>(is_caster_.size()), all);
+    PhotonStarts starts(sources_.size());
+    starts.learn(findings.tries);
+    // The least variance for the time, if that of paths is 1, of photons x / n, and their time in proportion to n: n is
+    // as the root of x.
+    needed_ = std::clamp(std::sqrt(findings.photons), least_needed, 1.0);
+    return use(std::move(starts));
+}
+
+Result<void> CausticPhotons::begin_maps(const Maps& maps, std::uint32_t seed, std::uint32_t paths) {
+    if (seed != seed_) first_radius_ = 0;
+    seed_ = seed;
+    whole_ = false;
+    maps_ = maps;
+    paths_ = paths;
+    photons_.assign(maps.count, {});
+    runs_.assign(maps.count, {});
+    for (std::uint32_t k = 0; k < maps.count; ++k)
+        runs_[k] = {shared::pcg_hash((maps.first + k) ^ shared::pcg_hash(seed ^ 0x6c8e9cf5u)), 1,
+                    hero_of(maps.first + k, seed)};
+    head_.paths = paths;
+    RESTAGE_CHECK(fill<shared::PhotonRun>(device_, run_buffer_, runs_, "maps of photons"));
+    return next_wave(0);
+}
+
+// Maps 2^k to 2^(k + 1), or parts of these: short waves, of photons and of samples, are mostly waiting.
+CausticPhotons::Maps CausticPhotons::maps_with(std::uint32_t map, std::uint32_t pixels) const {
+    const std::uint32_t most = std::bit_floor(std::clamp(WAVE_PATHS / paths_per_map(pixels), 1u, maps_together));
+    const std::uint32_t count = std::min(std::bit_floor(std::max(map, 1u)), most);
+    return {map / count * count, count};
+}
+
+Result<void> CausticPhotons::begin(const Maps& maps, std::uint32_t seed, std::uint32_t pixels) {
+    head_.samples_per_map = samples_per_map(pixels);
+    return begin_maps(maps, seed, paths_per_map(pixels));
+}
+
+Result<void> CausticPhotons::next_wave(std::uint64_t first_path) {
+    first_path_ = first_path;
     shared::PhotonMap head = head_;
-    head.first_path = first_path;
+    head.first_path = std::uint32_t(first_path);
     return upload(head);
 }
 
 void CausticPhotons::collect(std::span<const std::uint32_t> paths) {
     const auto deposits = deposits_.span<shared::Photon>();
     for (const std::uint32_t i : paths)
-        if (deposits[i].power.x >= 0) photons_.push_back(deposits[i]);
+        if (deposits[i].power.x >= 0) photons_[(first_path_ + i) / paths_].push_back(deposits[i]);
 }
 
-// The radius of map 0, by the distances between its photons: where most of them are there are many, and little blur is
-// needed.
-float CausticPhotons::nearby() const {
-    if (photons_.size() <= neighbours) return 0.01f * head_.scene_radius;
-    std::vector<float> distances(std::min(probes, photons_.size()));
-    jobs_.parallel_for(distances.size(), 8, [&](std::size_t begin, std::size_t end, unsigned) {
-        std::vector<float> all(photons_.size());
-        for (std::size_t k = begin; k < end; ++k) {
-            const glm::vec3 p = photons_[k * photons_.size() / distances.size()].p;
-            std::ranges::transform(photons_, all.begin(), [&](const auto& q) {
-                const glm::vec3 d = q.p - p;
-                return glm::dot(d, d);
-            });
-            std::ranges::nth_element(all, all.begin() + neighbours);
-            distances[k] = std::sqrt(all[neighbours]);
-        }
-    });
-    std::ranges::nth_element(distances, distances.begin() + std::ptrdiff_t(distances.size() / 2));
-    return std::clamp(distances[distances.size() / 2], 1e-6f * head_.scene_radius, 0.05f * head_.scene_radius);
+// By the distances between photons: where most of them are there are many, and little blur is needed.
+float CausticPhotons::nearby(std::span<const shared::Photon> photons) const {
+    if (photons.size() <= neighbours) return 0.01f * head_.scene_radius;
+    const float distance =
+        spacing(photons.size(), [&](std::size_t i) { return photons[i].p; }, neighbours, 0.5, probes);
+    return std::clamp(distance, 1e-6f * head_.scene_radius, 0.05f * head_.scene_radius);
 }
 
 float CausticPhotons::radius_of(std::uint32_t map) const {
@@ -271,30 +312,37 @@ float CausticPhotons::radius_of(std::uint32_t map) const {
 }
 
 Result<void> CausticPhotons::finish(const GpuScene& scene, const EmbreeScene& embree) {
-    if (map_ == 0 && !(first_radius_ > 0)) first_radius_ = nearby();
-    shared::PhotonMap head = head_;
-    head.radius = radius_of(map_);
-    const auto images = PhotonBorders{scene, embree, is_caster_}.images(photons_, head.radius, jobs_);
-    photons_.insert(photons_.end(), images.begin(), images.end());
-    head.count = std::uint32_t(photons_.size());
-    // By cells of two radii: a counting sort by the hash of the cell.
-    const std::uint32_t buckets = std::bit_ceil(std::max(head.count, 64u));
-    head.cell_mask = buckets - 1;
-    const float per_cell = 0.5f / head.radius;
-    std::vector<std::uint32_t> bucket(photons_.size()), first(buckets + 1);
-    for (std::size_t i = 0; i < photons_.size(); ++i) {
-        const glm::vec3 cell = glm::floor(photons_[i].p * per_cell);
-        bucket[i] = shared::photon_cell_hash(int(cell.x), int(cell.y), int(cell.z)) & head.cell_mask;
-        ++first[bucket[i] + 1];
+    if (maps_.first == 0 && !(first_radius_ > 0)) first_radius_ = nearby(photons_[0]) * float(std::pow(needed_, 0.25));
+    const PhotonBorders borders{scene, embree, is_caster_};
+    std::size_t most = 0;
+    for (std::uint32_t k = 0; k < maps_.count; ++k) {
+        runs_[k].radius = radius_of(maps_.first + k);
+        const auto images = borders.images(photons_[k], runs_[k].radius, jobs_);
+        photons_[k].insert(photons_[k].end(), images.begin(), images.end());
+        most = std::max(most, photons_[k].size());
     }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<shared::Photon> sorted(photons_.size());
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < photons_.size(); ++i)
-        sorted[next[bucket[i]]++] = photons_[i];
+    head_.cell_mask = PointGrid::mask_for(most);
+    std::vector<shared::Photon> sorted;
+    std::vector<std::uint32_t> cells{0};
+    for (std::uint32_t k = 0; k < maps_.count; ++k) {
+        const auto& photons = photons_[k];
+        const PointGrid grid(photons.size(), head_.cell_mask, 2 * runs_[k].radius,
+                             [&](std::size_t i) { return photons[i].p; });
+        const auto before = std::uint32_t(sorted.size());
+        for (std::size_t c = 1; c < grid.first.size(); ++c)
+            cells.push_back(before + grid.first[c]);
+        for (const std::uint32_t i : grid.order)
+            sorted.push_back(photons[i]);
+    }
+    photons_.clear();
     RESTAGE_CHECK(fill<shared::Photon>(device_, photon_buffer_, sorted, "photons"));
-    RESTAGE_CHECK(fill<std::uint32_t>(device_, cells_, first, "cells of photons"));
+    RESTAGE_CHECK(fill<std::uint32_t>(device_, cells_, cells, "cells of photons"));
+    RESTAGE_CHECK(fill<shared::PhotonRun>(device_, run_buffer_, runs_, "maps of photons"));
     whole_ = true;
+    shared::PhotonMap head = head_;
+    head.count = std::uint32_t(sorted.size());
+    head.first_map = maps_.first;
+    head.per_photon = 1.f / float(paths_);
     return upload(head);
 }
 
@@ -306,6 +354,8 @@ Result<void> CausticPhotons::upload(shared::PhotonMap head) {
     head.sources = source_buffer_.address();
     head.source_cdf = cdf_.address();
     head.casters = caster_buffer_.address();
+    head.starts = start_buffer_.address();
+    head.runs = run_buffer_.address();
     return fill<shared::PhotonMap>(device_, record_, std::span(&head, 1), "photon map");
 }
 

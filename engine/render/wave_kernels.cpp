@@ -23,11 +23,12 @@ SceneFeatures all_features(SceneFeatures f) {
 
 } // namespace
 
-Result<void> WaveKernels::select(const GpuScene& scene, bool guiding) {
+Result<void> WaveKernels::select(const GpuScene& scene, KernelUse use) {
     const bool other_colors = features_.spectral != scene.features().spectral; // and other words of values
     features_ = scene.features();
     if (c_.all_features) features_ = all_features(features_);
-    features_.guiding = guiding;
+    features_.guiding = use.guiding;
+    features_.caustics &= use.photons;
     auto before = std::exchange(types_, scene.types());
     texture_types_ = scene.texture_types();
     stand_in_type_ = scene.materials()[0].type;

@@ -11,6 +11,13 @@
 
 namespace restage::render {
 
+// What the kernels' paths do apart from meeting surfaces and light.
+struct KernelUse {
+    bool guiding = false; // they are guided
+    bool photons = false; // they gather photons, where the scene may have caustics
+    bool operator==(const KernelUse&) const = default;
+};
+
 class WaveKernels {
   public:
     // Pseudo types: hits of surfaces that emit, paths that left the scene
@@ -18,8 +25,8 @@ class WaveKernels {
 
     explicit WaveKernels(const TracerContext& c) : c_(c), store_(c) {}
 
-    // Switches to the types and features of `scene`. Starts building what every wave needs. guiding: paths are guided.
-    Result<void> select(const GpuScene& scene, bool guiding = false);
+    // Switches to the types and features of `scene`. Starts building what every wave needs.
+    Result<void> select(const GpuScene& scene, KernelUse use);
     // Waits for what every wave needs. False: keep_going requested a stop.
     Result<bool> begin(const std::function<bool()>& keep_going);
     // Makes kernels ready for hits of these types (index: type; value: hits). False: keep_going requested a stop.

@@ -10,7 +10,14 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PhotonMapRef { PhotonMap map; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PhotonArray { Photon at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PhotonSourceArray { PhotonSource at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PhotonRunArray { PhotonRun at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CasterArray { CasterSphere at[]; };
+
+// The run of this sample's map, and its number of those that are there.
+PhotonRun photon_run(PhotonMap map, uint sample_index, out uint nth) {
+    nth = sample_index / map.samples_per_map - map.first_map;
+    return PhotonRunArray(map.runs).at[nth];
+}
 
 // Whether light that a path finds now is not its own to count. role: ROLE_LIGHT if photons start from that light.
 bool left_to_photons(uint flags, uint role) {

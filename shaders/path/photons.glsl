@@ -48,16 +48,17 @@ float shading_correction(Surface s, vec3 wo, vec3 wi) {
 }
 
 // Radiance towards wo of the photons around the vertex.
-Spectrum gather_photons(Material m, Surface s, vec3 wo_world, inout Rng rng) {
+Spectrum gather_photons(Material m, Surface s, vec3 wo_world, uint sample_index, inout Rng rng) {
     vec3 wo = to_local(s, wo_world);
-    float r = photon_map.radius, r2 = r * r, per_cell = 0.5 / r;
+    uint nth;
+    float r = photon_run(photon_map, sample_index, nth).radius, r2 = r * r, per_cell = 0.5 / r;
     ivec3 first = ivec3(floor((s.p - r) * per_cell));
     PhotonArray photons = PhotonArray(photon_map.photons);
     UintArray cells = UintArray(photon_map.cells);
     Spectrum sum = Spectrum(0);
     for (int k = 0; k < 8; ++k) {
         ivec3 cell = first + ivec3(k & 1, k >> 1 & 1, k >> 2);
-        uint bucket = photon_cell_hash(cell.x, cell.y, cell.z) & photon_map.cell_mask;
+        uint bucket = nth * (photon_map.cell_mask + 1u) + (photon_cell_hash(cell.x, cell.y, cell.z) & photon_map.cell_mask);
         for (uint i = cells.at[bucket]; i < cells.at[bucket + 1u]; ++i) {
             vec3 p = photons.at[i].p, d = p - s.p;
             if (dot(d, d) > r2 || abs(dot(d, s.ng)) > GATHER_HEIGHT * r || ivec3(floor(p * per_cell)) != cell) continue;

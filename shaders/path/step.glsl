@@ -149,7 +149,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     }
     if (HAS_CAUSTICS && (photon ? depth > 0u : !last && photon_map.count > 0u) && scatters(m, wo, b, rng)) {
         if (photon) photon_stop(s, wo_world, path.radiance * path.throughput);
-        else path.radiance += clamp_contribution(scene, path.throughput * gather_photons(m, s, wo_world, rng), depth + 1u);
+        else path.radiance += clamp_contribution(scene, path.throughput * gather_photons(m, s, wo_world, path.sample_index, rng), depth + 1u);
     }
     Spectrum colors = shadow_contribution + path.radiance;
     vec3 others = vec3(0);

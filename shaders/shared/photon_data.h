@@ -29,30 +29,39 @@ struct PhotonSource { // of light
     float pmf; // of being chosen
 };
 
+struct PhotonRun { // the photons of one map
+    uint seed;
+    float radius; // of the disk in which they are gathered
+    float hero; // spectral mode: chooses the wavelengths of photons and of the paths that gather them; < 0: each path
+                // its own
+};
+
 struct CasterSphere { // around casters: what photons aim at
     vec3 center;
     float radius;
 };
 
-struct PhotonMap {
-    address photons; // Photon[], ordered by cell
-    address cells; // uint[cell_mask + 2]: of each hash of a cell its first photon
+struct PhotonMap { // several maps, each for some samples
+    address photons; // Photon[], ordered by map and cell
+    address cells; // uint[maps * (cell_mask + 1) + 1]: of each map and hash of a cell its first photon
     address roles; // uint[] by instance: ROLE_*
     address deposits; // Photon[], by path of a wave of photons
     address sources; // PhotonSource[source_count]
     address source_cdf; // CdfEntry[source_count]
     address casters; // CasterSphere[caster_count]
+    address starts; // CdfEntry[start_rows * start_side^2]: cells of the numbers that choose a photon's start, see
+                    // wave_photons.comp
+    address runs; // PhotonRun[], by map
     uint cell_mask;
     uint count; // photons; 0: no caustics
-    float radius; // of the disk in which they are gathered
+    uint first_map, samples_per_map;
     float per_photon; // 1 / paths of photons that were started
     uint source_count, caster_count;
     uint environment; // ROLE_LIGHT if photons start from it
-    uint seed, first_path; // of this wave of photons
+    uint start_rows, start_side;
+    uint paths, first_path; // of photons: of each map; the first of this wave, of all maps
     vec3 center; // of a sphere around the scene
     float scene_radius;
-    float hero; // spectral mode: chooses the wavelengths of photons and of the paths that gather them; < 0: each path
-                // its own
 };
 
 RESTAGE_INLINE uint photon_cell_hash(int x, int y, int z) {
