@@ -35,7 +35,7 @@ inline io::Estimate estimate(const render::FilmImage& image) {
 }
 
 // Pictures whose samples are independent: each pixel's z is within 3 for 97.5 % of the pixels (99.7 % if errors were
-// known, not estimated), and so is the means'.
+// known, not estimated), and the means' within 3.5, since there are some 60 of these.
 inline void check_independent(const render::FilmImage& a, const render::FilmImage& b) {
     const auto test = io::z_test(estimate(a), estimate(b), 3, 1);
     REQUIRE(test);
@@ -47,7 +47,7 @@ inline void check_independent(const render::FilmImage& a, const render::FilmImag
         test->share_passing, test->worst, test->rms, ma.value, ma.std_error, mb.value, mb.std_error, z));
     CHECK(test->share_passing >= 0.975);
     CHECK(test->rms < 1.25);
-    CHECK(std::abs(z) <= 3);
+    CHECK(std::abs(z) <= 3.5);
     CHECK(ma.value > 0); // a black picture agrees with anything
 }
 

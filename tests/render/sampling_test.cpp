@@ -98,7 +98,7 @@ TEST_CASE("sampler: neighbouring pixels complete each other, whatever the number
                         std::vector<int> boxes(std::size_t(1) << n);
                         for (int pixel = block << m; pixel < (block + 1) << m; ++pixel)
                             for (int i = 0; i < 1 << k; ++i) {
-                                const glm::vec2 p = points[std::size_t(pixel * 64 + i)];
+                                const glm::vec2& p = points[std::size_t(pixel * 64 + i)];
                                 ++boxes[(std::size_t(p.y * float(1 << (n - a))) << a) +
                                         std::size_t(p.x * float(1 << a))];
                             }
