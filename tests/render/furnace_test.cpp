@@ -19,7 +19,8 @@ struct Furnace {
         b.set_film(48, 32);
         b.set_camera({0, -14, 5}, {0, 0, 0}, {0, 0, 1}, 32);
         b.environment(glm::vec3(1));
-        b.scene.settings.value.max_depth = 1000; // light is caught in glass for long: at 100, 0.8 % of index 2.4 is missing
+        b.scene.settings.value.max_depth =
+            1000; // light is caught in glass for long: at 100, 0.8 % of index 2.4 is missing
     }
     // A faceted sphere and a cube that touch, so that light passes between them.
     void add(const std::string& name, scene::Id<scene::Material> material) {
