@@ -228,7 +228,7 @@ vec3 PlainTracer::Data::path(vec3 o, vec3 d, Rng& rng, PlainResult& count) const
             throughput *= f / last_pdf;
         }
         if (depth > 0) {
-            const float survive = std::max({throughput.x, throughput.y, throughput.z}) * eta_scale;
+            const float survive = std::max({throughput.x, throughput.y, throughput.z}) * eta_scale / 0.3f; // step.glsl
             if (survive < 1) {
                 if (rng.next() >= survive) break;
                 throughput /= survive;
