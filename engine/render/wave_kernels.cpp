@@ -7,7 +7,6 @@
 #include "shared/wave_data.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace restage::render {
 namespace {

@@ -46,7 +46,7 @@ uvec2 sample_bits(uint seed, uint index, uint pair) {
     // Of indices, only those between two powers of two are shuffled with each other: the first 2^k stay what they are.
     uint most = index == 0u ? 0u : 1u << findMSB(index);
     index = bitfieldReverse(laine_karras(bitfieldReverse(index), pcg_hash(seed ^ pair)));
-    index = most | (index & (most - 1u) & uint(-int(most > 0u)));
+    index = most | (index & (max(most, 1u) - 1u));
     // Places are shuffled, too, or the shifts of one pair would tell those of the others.
     uint place = bitfieldReverse(laine_karras(bitfieldReverse(seed & 255u), s ^ 0x2545f491u));
     uvec2 shift = uvec2(0);
