@@ -21,6 +21,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <locale>
 #include <string_view>
 
 namespace restage::app {
@@ -33,6 +35,14 @@ double now_seconds() {
 } // namespace
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+std::size_t peak_memory() {
+    std::ifstream status("/proc/self/status");
+    status.imbue(std::locale::classic());
+    for (std::string word; status >> word;)
+        if (std::size_t kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
+    return 0;
+}
 
 void add_device_options(CLI::App& command, render::RendererOptions& o) {
     const std::vector<std::string> tracers = render::tracer_names();

@@ -62,6 +62,9 @@ Result<glm::uvec2> parse_size(const std::string& text, const char* option);
 Result<void> apply_options(Context& context, const RenderOptions& options, scene::Scene& scene);
 
 double cpu_seconds(); // of all threads of this process, since its start
+// The most memory that this program has had at a time [bytes]; 0 = unknown. Not getrusage's, which counts what the
+// process was before it became this program.
+std::size_t peak_memory();
 
 struct CpuSeconds {
     double first = 0, all = 0; // until the end of the first sample, which waits for shaders; of the last one

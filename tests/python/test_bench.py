@@ -108,6 +108,12 @@ def test_scenes_of_growth(tmp_path, kind, size, count):
         assert session.size == ((32, 32) if kind == "resolution" else (128, 128))
 
 
+def test_memory_of_growth_is_the_programs_own(tmp_path):
+    held = np.ones(100_000_000)  # 800 MB, which a child of this process has had before it becomes the program
+    point = growth.measure_once(bench._program(), growth.make("depth", 1, tmp_path)[0], tmp_path, ())
+    assert 20e6 < point["memory"] < 700e6 and held.any()
+
+
 class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()

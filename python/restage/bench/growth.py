@@ -86,7 +86,7 @@ def measure_once(program, file, folder, options):
     rays = s["rays"] + s["shadow_rays"]
     later = (s["cpu_seconds"] - s["cpu_seconds_first"]) * s["samples"] / (s["samples"] - 1)
     return {"rays_per_second": rays / max(s["seconds_shading"] + s["seconds_tracing"], 1e-9), "rays_per_cpu_second": rays / max(later, 1e-9),
-            "memory": used.ru_maxrss * 1024, "setup": used.ru_utime + used.ru_stime - s["cpu_seconds"], "wall": wall}
+            "memory": s["peak_memory"], "setup": used.ru_utime + used.ru_stime - s["cpu_seconds"], "wall": wall}
 
 
 def measure(program, folder, budget, kinds=tuple(FIRST), options=(), say=print):
