@@ -50,9 +50,10 @@ void duplicate_selected(Editor& e) {
         return e.selection.set_light(made->copy);
     }
     auto made = session.duplicate(e.selection.instances(), move);
-    if (made)
+    if (made) {
+        e.selection.things.copied(e.selection.instances(), *made);
         e.selection.set(*made);
-    else
+    } else
         e.notices.add(LogLevel::error, made.error().message);
 }
 
@@ -250,6 +251,15 @@ constexpr auto actions = std::to_array<Action>({
          e.selection.clear();
          e.selection.enter({});
      }},
+    {"select.whole_things", "Whole things", ImGuiMod_Shift | ImGuiKey_C, 0,
+     "A click takes all parts of a thing (a chair of 20 objects); a double click goes into it. Off: single objects and "
+     "groups",
+     nullptr,
+     [](Editor& e) {
+         e.preferences.whole_things = e.selection.whole_things = !e.selection.whole_things;
+         e.selection.enter({});
+     },
+     [](const PanelContext& e) { return e.selection.whole_things; }},
     {"select.touching", "What touches it", ImGuiKey_C, 0,
      "Adds the objects that the selection touches, and those that these touch: a whole chair, or a table with the "
      "things on it. "

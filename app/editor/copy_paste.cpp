@@ -93,6 +93,7 @@ void paste(Editor& e) {
         }
         auto made = e.session_for_changes().duplicate(ids, glm::translate(glm::dmat4(1), aside(e, bounds)));
         if (!made) return e.notices.add(LogLevel::error, made.error().message);
+        e.selection.things.copied(ids, *made);
         return e.selection.set(*made);
     }
     // Pasted things that refer to files read them.

@@ -112,7 +112,10 @@ void begin_drag(PanelContext& e, Drag& drag, bool copy) {
             drag.start[i].first = made->copies[i];
         drag.copied = true;
         e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "drag");
-        e.later([&e, copies = made->copies] { e.selection.set(copies); });
+        e.later([&e, originals = drag.originals, copies = made->copies] {
+            e.selection.things.copied(originals, copies);
+            e.selection.set(copies);
+        });
     }
 }
 

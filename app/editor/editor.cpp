@@ -35,6 +35,7 @@ Editor::Editor(plugin::Registry& registry, Log& log, Notices& shown, EditorOptio
         panels_open_[panel.title] = panel.open;
     preferences = remembered_ = read_preferences(options_.config_dir);
     view.keys = preferences.keys;
+    selection.whole_things = preferences.whole_things;
     view.snap_move = preferences.snap_move;
     view.snap_angle = preferences.snap_angle;
     view.snap_scale = preferences.snap_scale;
@@ -111,6 +112,7 @@ void Editor::frame(const std::vector<int>* keys) {
     follow_plugins();
     panel_state->loads.poll();
     panel_state->balls.poll();
+    panel_state->things.follow(*this);
     follow_sky(*this);
     follow_convergence(*this, *this);
     run_shortcuts(*this, keys);
@@ -212,6 +214,7 @@ void Editor::document_changed() {
     ++document_;
     original_ = session_->base().file.empty() ? scene() : session_->base().scene;
     selection = {};
+    selection.whole_things = preferences.whole_things;
     views = {};
     camera_place_.reset();
     locked.clear();

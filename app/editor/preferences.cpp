@@ -22,6 +22,8 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     const auto j = text ? parse_json<nlohmann::json>(*text).value_or(nlohmann::json()) : nlohmann::json();
     if (!j.is_object()) return preferences;
     if (const auto seen = j.find("hint_seen"); seen != j.end() && seen->is_boolean()) preferences.hint_seen = *seen;
+    if (const auto whole = j.find("whole_things"); whole != j.end() && whole->is_boolean())
+        preferences.whole_things = *whole;
     if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;
     const auto step = [&](const char* key, float& value, float most) {
         if (const auto found = j.find(key); found != j.end() && found->is_number())
@@ -39,6 +41,7 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
 void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences) {
     if (config_dir.empty()) return;
     const nlohmann::json j{{"hint_seen", preferences.hint_seen},
+                           {"whole_things", preferences.whole_things},
                            {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
                            {"snap_move", preferences.snap_move},
                            {"snap_angle", preferences.snap_angle},

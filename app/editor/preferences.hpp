@@ -15,6 +15,7 @@ struct Preferences {
     KeyPreset keys = KeyPreset::standard;
     float snap_move = 0.1f, snap_angle = 15, snap_scale = 0.1f; // steps of drags with Ctrl: scene units, deg, factor
     int history_mib = 512; // memory budget of the history [MiB], 16 to 65536
+    bool whole_things = true; // a click takes all parts of what it hits
     std::string denoiser; // type or id of its plugin; "" = the one shipped with the program
     bool operator==(const Preferences&) const = default;
 };

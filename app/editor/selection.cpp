@@ -37,41 +37,33 @@ void Selection::clear() {
 void Selection::prune(const scene::Scene& scene) {
     std::erase_if(instances_, [&](InstanceId id) { return !scene.instances.find(id) && members_.erase(id) > 0; });
     if (!scene.lights.find(light_)) light_ = {};
-    if (!scene.groups.find(entered_)) entered_ = {};
+    if (entered_.group && !scene.groups.find(entered_.group)) entered_ = {};
 }
 
-bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer) {
-    for (const scene::Group* group = scene.groups.find(inner); group;
-         inner = group->parent, group = scene.groups.find(inner))
-        if (inner == outer) return true;
-    return false;
+std::vector<Whole> Selection::wholes(const scene::Scene& scene, InstanceId id) const {
+    static const query::Things none;
+    return query::wholes_around(scene, whole_things ? things : none, id);
 }
 
-std::vector<InstanceId> instances_in(const scene::Scene& scene, GroupId group) {
-    std::vector<InstanceId> found;
-    scene.instances.each([&](InstanceId id, const scene::Instance& instance) {
-        if (is_within(scene, instance.group, group)) found.push_back(id);
-    });
-    return found;
+Whole Selection::click_whole(const scene::Scene& scene, InstanceId id) const {
+    const std::vector<Whole> around = wholes(scene, id);
+    auto at = around.begin();
+    if (const auto in = std::find(around.begin(), around.end(), entered_); in != around.end()) at = in + 1;
+    return at == around.end() ? Whole{} : *at;
 }
 
 GroupId Selection::click_group(const scene::Scene& scene, InstanceId id) const {
-    const scene::Instance* instance = scene.instances.find(id);
-    if (!instance) return {};
-    GroupId outermost;
-    for (GroupId group = instance->group; group && group != entered_;) {
-        outermost = group;
-        const scene::Group* item = scene.groups.find(group);
-        group = item ? item->parent : GroupId{};
-    }
-    // It is not in the entered group: the pick leaves that group.
-    return outermost;
+    const std::vector<Whole> around = wholes(scene, id);
+    auto at = around.begin();
+    if (const auto in = std::find(around.begin(), around.end(), entered_); in != around.end()) at = in + 1;
+    at = std::find_if(at, around.end(), [](const Whole& whole) { return !whole.thing; });
+    return at == around.end() ? GroupId{} : at->group;
 }
 
 std::vector<InstanceId> Selection::click_target(const scene::Scene& scene, InstanceId id) const {
-    const GroupId group = click_group(scene, id);
-    if (!group) return {id};
-    auto all = instances_in(scene, group);
+    const Whole whole = click_whole(scene, id);
+    if (!whole) return {id};
+    auto all = query::members_of(scene, things, whole);
     // The object that was hit becomes the active one.
     std::erase(all, id);
     all.push_back(id);

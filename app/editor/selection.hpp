@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selection: the user's current selection. Not part of the document, its history or any file. Objects in a group are
-// selected together until the group is entered.
+// Selection: the user's current selection. Not part of the document, its history or any file. The parts of a thing and
+// the objects in a group are selected together until the thing or the group is entered.
 #pragma once
 
+#include "query/wholes.hpp"
 #include "scene/bounds.hpp"
 #include "scene/scene.hpp"
 
@@ -14,6 +15,9 @@ namespace restage::editor {
 
 using InstanceId = scene::Id<scene::Instance>;
 using GroupId = scene::Id<scene::Group>;
+using query::instances_in;
+using query::is_within;
+using query::Whole;
 
 class Selection {
   public:
@@ -24,21 +28,28 @@ class Selection {
     InstanceId active() const { return instances_.empty() ? InstanceId{} : instances_.back(); }
     // A light without a surface; selecting one deselects the objects.
     scene::Id<scene::Light> light() const { return light_; }
-    // Picks select single objects within this group, whole groups elsewhere.
-    GroupId entered() const { return entered_; }
+    // Picks select what is within this, wholes elsewhere.
+    Whole entered() const { return entered_; }
 
     enum class Mode { replace, add, toggle };
     void set(std::span<const InstanceId> ids, Mode mode = Mode::replace);
     void set_light(scene::Id<scene::Light> light);
     void clear();
-    void enter(GroupId group) { entered_ = group; }
+    void enter(Whole whole) { entered_ = whole; }
     // Forgets what no longer exists (after undo, delete).
     void prune(const scene::Scene& scene);
 
-    // The things selected by a click on `id`: the object itself, or all of its outermost group that is not entered.
+    // What a click on the object selects; it is the last one, and so the active one.
     std::vector<InstanceId> click_target(const scene::Scene& scene, InstanceId id) const;
-    // The outermost group around the object inside the entered one; none if a click selects the object itself.
+    // The outermost whole around the object inside the entered one; none if a click selects the object itself.
+    Whole click_whole(const scene::Scene& scene, InstanceId id) const;
+    // Likewise, but of groups only.
     GroupId click_group(const scene::Scene& scene, InstanceId id) const;
+    // The wholes around the object, from the outside in, that count at present.
+    std::vector<Whole> wholes(const scene::Scene& scene, InstanceId id) const;
+
+    query::Things things; // of the document, once they are found (finding_things.hpp)
+    bool whole_things = true; // a click takes them
 
     scene::Bounds bounds(const scene::Scene& scene) const;
 
@@ -46,11 +57,7 @@ class Selection {
     std::vector<InstanceId> instances_;
     std::unordered_set<InstanceId> members_; // the same
     scene::Id<scene::Light> light_;
-    GroupId entered_;
+    Whole entered_;
 };
-
-// All objects in a group and the groups within it.
-std::vector<InstanceId> instances_in(const scene::Scene& scene, GroupId group);
-bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer);
 
 } // namespace restage::editor

@@ -175,12 +175,12 @@ std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImV
             if (id < seen.size()) seen[id] |= inside ? 1 : 2;
         }
     const bool whole = to.x >= from.x;
-    std::set<std::uint32_t> taken; // groups, each checked once
+    std::set<Whole> taken; // each checked once
     for (std::uint32_t value = 0; value < seen.size(); ++value) {
         const InstanceId id{value};
         if (!(seen[value] & 1) || e.locked.contains(value) || !e.scene().instances.find(id)) continue;
-        const GroupId group = e.selection.click_group(e.scene(), id);
-        if (group && !taken.insert(group.value).second) continue;
+        const Whole of = e.selection.click_whole(e.scene(), id);
+        if (of && !taken.insert(of).second) continue;
         const std::vector<InstanceId> parts = e.selection.click_target(e.scene(), id);
         if (whole && std::any_of(parts.begin(), parts.end(),
                                  [&](InstanceId part) { return part.value < seen.size() && (seen[part.value] & 2); }))
@@ -198,12 +198,11 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        // Enters the group; on nothing, or on a single object, the point there becomes the centre of orbits.
+        // Enters the whole; on nothing, or on a single object, the point there becomes the centre of orbits.
         const InstanceId id = pickable(picked_at(e, io.MousePos));
-        if (const GroupId group = e.selection.click_group(e.scene(), id)) {
-            e.selection.enter(group);
-            const InstanceId ids[] = {id};
-            e.selection.set(ids);
+        if (const Whole whole = e.selection.click_whole(e.scene(), id)) {
+            e.selection.enter(whole);
+            e.selection.set(e.selection.click_target(e.scene(), id));
             pressed_ = false;
             return;
         }
@@ -261,12 +260,12 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         const query::ViewRay ray = query::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
         const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction,
                                              [&](InstanceId hit) { return e.locked.contains(hit.value); });
-        // Each pickable thing once, however many parts of it the ray hits.
+        // Each whole once, however many parts of it the ray hits.
         std::vector<InstanceId> targets;
-        std::set<std::pair<std::uint32_t, std::uint32_t>> seen; // group, or the object if it has none
+        std::set<std::pair<Whole, std::uint32_t>> seen; // or the object if it is alone
         for (const query::RayHit& hit : hits) {
-            const GroupId group = e.selection.click_group(e.scene(), hit.instance);
-            if (seen.insert({group.value, group ? 0 : hit.instance.value}).second) targets.push_back(hit.instance);
+            const Whole whole = e.selection.click_whole(e.scene(), hit.instance);
+            if (seen.insert({whole, whole ? 0 : hit.instance.value}).second) targets.push_back(hit.instance);
         }
         if (!targets.empty()) id = targets[behind_ % targets.size()];
     }
@@ -274,7 +273,8 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         if (mode == Selection::Mode::replace) e.selection.clear();
         return;
     }
-    if (e.selection.entered() && !is_within(e.scene(), e.scene().instances[id].group, e.selection.entered()))
+    if (const auto around = e.selection.wholes(e.scene(), id);
+        std::find(around.begin(), around.end(), e.selection.entered()) == around.end())
         e.selection.enter({});
     e.selection.set(e.selection.click_target(e.scene(), id), mode);
 }

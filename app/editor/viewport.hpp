@@ -18,6 +18,7 @@
 namespace restage::editor {
 
 class PanelContext;
+class SelectContext;
 
 class Viewport {
   public:
@@ -90,5 +91,8 @@ class Viewport {
 
 // The text in the picture's corner. `compiling`: a material whose code is not ready; "" = none.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera);
+
+// What is selected, and how to get at its parts; "" = nothing.
+std::string selection_note(const SelectContext& editor);
 
 } // namespace restage::editor

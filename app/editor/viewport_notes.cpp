@@ -117,6 +117,21 @@ std::string picture_note(const view::Frame& shown, const std::string& compiling,
     return text;
 }
 
+std::string selection_note(const SelectContext& e) {
+    const Selection& selected = e.selection;
+    const auto& ids = selected.instances();
+    if (ids.empty()) return "";
+    const Whole whole = selected.click_whole(e.scene(), selected.active());
+    if (whole && selected.click_target(e.scene(), selected.active()).size() == ids.size()) {
+        const scene::Group* group = whole.thing ? nullptr : e.scene().groups.find(whole.group);
+        return fmt::format("{}: {} parts as one; a double click goes into it",
+                           group ? group->name : e.scene().instances[selected.active()].name, ids.size());
+    }
+    std::string text = ids.size() == 1 ? e.scene().instances[ids[0]].name : fmt::format("{} objects", ids.size());
+    if (selected.entered()) text += ", inside the whole; Esc leaves it";
+    return text;
+}
+
 void Viewport::draw_status(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
@@ -127,6 +142,8 @@ void Viewport::draw_status(PanelContext& e) {
         text = status.text;
     else if (drawn_ && !drawn_->clay)
         text = picture_note(*drawn_, status.compiling, e.views.now().has_value());
+    if (const std::string selected = selection_note(e); !selected.empty() && status.state != view::ViewState::failed)
+        text = selected + (text.empty() ? "" : "\n") + text;
     if (!text.empty() && (e.view.show_overlays || status.state == view::ViewState::failed)) {
         const float wrap = std::max(size.x - 20 * scale, 60.f);
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);

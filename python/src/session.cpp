@@ -6,6 +6,7 @@
 
 #include "document/project.hpp"
 #include "io/strict.hpp"
+#include "query/wholes.hpp"
 #include "scene/sky.hpp"
 #include "scene/studio.hpp"
 
@@ -269,6 +270,27 @@ void bind_film(nb::class_<Workspace>& c) {
             "'auto'\n(where the scene has any), 'on' or 'off'.");
 }
 
+std::vector<Selection> things_of(const Shared& w) {
+    const Scene scene = w->scene();
+    const glm::dvec3 up = w->up();
+    const std::uint32_t imported = w->session().base().scene.groups.size();
+    query::Things things;
+    {
+        const nb::gil_scoped_release released;
+        things = query::find_things(scene, up, imported);
+    }
+    std::vector<Selection> found;
+    std::set<query::Whole> seen;
+    scene.instances.each([&](Id<Instance> id, const Instance&) {
+        const auto wholes = query::wholes_around(scene, things, id);
+        if (wholes.empty())
+            found.push_back({w, {id}});
+        else if (seen.insert(wholes.front()).second)
+            found.push_back({w, query::members_of(scene, things, wholes.front())});
+    });
+    return found;
+}
+
 void bind_contents(nb::class_<Workspace>& c) {
     c.def_prop_ro(
          "objects", [](const Shared& w) { return Collection<Instance>{w}; }, "All objects.")
@@ -288,6 +310,10 @@ void bind_contents(nb::class_<Workspace>& c) {
             "select", [](const Shared& w, const nb::args& things) { return Selection{w, objects_of(*w, things)}; },
             "things"_a, "Objects and groups as one: select(a, b).move((1, 0, 0)).",
             nb::sig("def select(self, *things: Object | Group | Selection) -> Selection"))
+        .def("things", &things_of,
+             "Every object once, with those that a click in the editor takes together: parts of a chair, groups.\n"
+             "Found from what touches and what rests on what; see engine/query/things.hpp.",
+             nb::sig("def things(self) -> list[Selection]"))
         .def_prop_rw(
             "camera",
             [](const Shared& w) -> std::optional<Handle<Camera>> {

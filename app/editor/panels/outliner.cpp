@@ -208,7 +208,7 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
     if (ImGui::BeginPopupContextItem("group")) {
         if (ImGui::MenuItem("Select")) e.selection.set(instances_in(e.scene(), id));
         if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, group->name);
-        if (ImGui::MenuItem("Enter")) e.selection.enter(id);
+        if (ImGui::MenuItem("Enter")) e.selection.enter({.group = id});
         tip("Clicks in the picture select its single objects; Esc leaves");
         if (ImGui::MenuItem("Ungroup")) ungroup(e, id);
         ImGui::EndPopup();

@@ -4,6 +4,7 @@
 
 #include "assets.hpp"
 #include "check/step.hpp"
+#include "finding_things.hpp"
 #include "image_loads.hpp"
 #include "material_balls.hpp"
 #include "selection.hpp"
@@ -113,11 +114,12 @@ struct ImportState { // options of importers in the file browser
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings not to repeat each frame
-    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake) {}
+    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake), things(wake) {}
     // For a closed scene.
     void forget_document() {
         balls.forget();
         skies.stop();
+        things.stop();
         inspector = {};
         outliner = {};
         report = {};
@@ -130,6 +132,7 @@ struct PanelState {
     ImageLoads loads;
     MaterialBalls balls;
     SkyMaking skies;
+    FindingThings things;
     InspectorState inspector;
     OutlinerState outliner;
     SceneState scene;
