@@ -90,3 +90,11 @@ def test_a_crop_is_a_part_and_pictures_are_arrays(cornell):
     assert part.color.max() > 0  # a copy
     assert np.asarray(part, dtype=np.float64).dtype == np.float64
     assert part._repr_png_().startswith(b"\x89PNG")
+
+
+def test_things_hold_every_object_once():
+    with restage.open(restage.bundled_scene("demo")) as session:
+        things = [{o.name for o in t.objects} for t in session.things()]
+        assert sorted(name for t in things for name in t) == sorted(o.name for o in session.objects)
+        assert {"Vase", "Vase stems", "Vase leaves"} in things and {"Chair frame", "Chair cushion"} in things
+        assert any("Floor" in t for t in things) and not any("Floor" in t and len(t) > 1 for t in things)
