@@ -3,6 +3,7 @@
 
 #include "copy_paste.hpp"
 #include "document/session.hpp"
+#include "duplicating.hpp"
 #include "editor.hpp"
 #include "importing.hpp"
 #include "io/material_emission.hpp"
@@ -12,7 +13,7 @@
 #include "query/support.hpp"
 #include "query/touching.hpp"
 #include "saving.hpp"
-#include "scene/edits_light.hpp"
+#include "scene/edits.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
 
@@ -37,23 +38,6 @@ void remove_selected(Editor& e) {
     e.edit([ids, light](const scene::Scene& s) {
         return light ? scene::remove(s, light) : scene::remove_instances(s, ids);
     });
-}
-
-void duplicate_selected(Editor& e) {
-    // Displaced to the side, so that the copy is visible.
-    const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
-    document::Session& session = e.session_for_changes();
-    if (e.selection.light()) {
-        auto made = scene::duplicate_light(e.scene(), e.selection.light(), move);
-        if (!made) return e.notices.add(LogLevel::error, made.error().message);
-        session.edit(std::move(made->edit));
-        return e.selection.set_light(made->copy);
-    }
-    auto made = session.duplicate(e.selection.instances(), move);
-    if (made)
-        e.selection.set(*made);
-    else
-        e.notices.add(LogLevel::error, made.error().message);
 }
 
 void frame_bounds(Editor& e, const scene::Bounds& bounds) {
