@@ -2,6 +2,7 @@
 // State that panels keep from frame to frame. Not part of the document; one per editor.
 #pragma once
 
+#include "arrange.hpp"
 #include "assets.hpp"
 #include "check/step.hpp"
 #include "image_loads.hpp"
@@ -123,6 +124,8 @@ struct PanelState {
         report = {};
         convergence.current = {};
         convergence.previous = {};
+        arrange.live.reset();
+        arrange.found = {};
         history_seen = 0;
         plugins.asked.clear(); // may refer to its things
     }
@@ -131,6 +134,7 @@ struct PanelState {
     MaterialBalls balls;
     SkyMaking skies;
     InspectorState inspector;
+    ArrangeState arrange;
     OutlinerState outliner;
     SceneState scene;
     ReportState report;
