@@ -26,6 +26,7 @@ int button_row(PanelUi& e, const std::string& mark, const char* label, std::span
     form_row(label);
     const float width = (ImGui::CalcItemWidth() - gap * float(names.size() - 1)) / float(names.size());
     int pressed = -1;
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, ImGui::GetStyle().FramePadding.y}); // room for the names
     ImGui::BeginDisabled(!enabled);
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, gap);
@@ -35,6 +36,7 @@ int button_row(PanelUi& e, const std::string& mark, const char* label, std::span
         e.mark(id);
     }
     ImGui::EndDisabled();
+    ImGui::PopStyleVar();
     return pressed;
 }
 
