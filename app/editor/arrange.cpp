@@ -6,7 +6,6 @@
 #include "document/session.hpp"
 #include "panels/state.hpp"
 
-#include <fmt/format.h>
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
