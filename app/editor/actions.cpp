@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "actions.hpp"
 
+#include "arrange.hpp"
 #include "copy_paste.hpp"
 #include "document/session.hpp"
+#include "duplicating.hpp"
 #include "editor.hpp"
 #include "importing.hpp"
 #include "io/material_emission.hpp"
 #include "panels/outliner.hpp"
+#include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "query/navigation.hpp"
 #include "query/support.hpp"
 #include "query/touching.hpp"
 #include "saving.hpp"
-#include "scene/edits_light.hpp"
+#include "scene/edits.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
 
@@ -37,24 +40,6 @@ void remove_selected(Editor& e) {
     e.edit([ids, light](const scene::Scene& s) {
         return light ? scene::remove(s, light) : scene::remove_instances(s, ids);
     });
-}
-
-void duplicate_selected(Editor& e) {
-    // Displaced to the side, so that the copy is visible.
-    const glm::dmat4 move = glm::translate(glm::dmat4(1), aside(e, e.selection.bounds(e.scene())));
-    document::Session& session = e.session_for_changes();
-    if (e.selection.light()) {
-        auto made = scene::duplicate_light(e.scene(), e.selection.light(), move);
-        if (!made) return e.notices.add(LogLevel::error, made.error().message);
-        session.edit(std::move(made->edit));
-        return e.selection.set_light(made->copy);
-    }
-    auto made = session.duplicate(e.selection.instances(), move);
-    if (made) {
-        e.selection.things.copied(e.selection.instances(), *made);
-        e.selection.set(*made);
-    } else
-        e.notices.add(LogLevel::error, made.error().message);
 }
 
 void frame_bounds(Editor& e, const scene::Bounds& bounds) {
@@ -116,6 +101,22 @@ void drop_to_floor(Editor& e) {
         if (edit) edit->label = "Drop to floor";
         return edit;
     });
+}
+
+void show_arrange(Editor& e) {
+    e.view.show_panels = true;
+    e.open_panel("Arrange");
+    ImGui::SetWindowFocus("Arrange");
+}
+
+void ask_for_array(Editor& e) {
+    show_arrange(e);
+    e.panel_state->arrange.asked = true;
+}
+
+template <int axis>
+void mirror(Editor& e) {
+    mirror_in_place(e, axis);
 }
 
 void select_touching(Editor& e) {
@@ -225,8 +226,10 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.session().history().position() < e.session().history().size(); },
      [](Editor& e) { e.redo(); }},
     {"edit.duplicate", "Duplicate", ImGuiMod_Ctrl | ImGuiKey_D, ImGuiMod_Shift | ImGuiKey_D,
-     "Copies the selection next to it; copies of objects share geometry and material", has_selection,
-     duplicate_selected},
+     "Copies the selection next to it, where the picture shows it; again, also after moving the copy: the next one at "
+     "the "
+     "same offset. Copies of objects share geometry and material",
+     has_selection, duplicate_selected},
     {"edit.copy", "Copy", ImGuiMod_Ctrl | ImGuiKey_C, 0,
      "Copies objects or a light to the clipboard, for this or another Restage window", has_selection,
      run<copy_selected>},
@@ -241,13 +244,31 @@ constexpr auto actions = std::to_array<Action>({
      [](Editor& e) { ungroup(e, group_of_selection(e)); }},
     {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Lowers the selected objects onto the surface below", has_objects,
      drop_to_floor},
+    {"edit.arrange", "Arrange...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_A, 0,
+     "A panel to align, distribute, mirror, repeat and replace the selection", has_scene, show_arrange},
+    {"edit.array", "Array...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_D, 0,
+     "Copies in a line, a circle or a grid, which change with their numbers until they are kept", has_objects,
+     ask_for_array},
+    {"edit.mirror_x", "Mirror x", 0, 0, "Mirrors the selection at its centre, along the world's x axis", has_selection,
+     mirror<0>},
+    {"edit.mirror_y", "Mirror y", 0, 0, "Mirrors the selection at its centre, along the world's y axis", has_selection,
+     mirror<1>},
+    {"edit.mirror_z", "Mirror z", 0, 0, "Mirrors the selection at its centre, along the world's z axis", has_selection,
+     mirror<2>},
+    {"edit.replace", "Replace by the last selected", 0, 0,
+     "Puts copies of the last selected thing in the places of the others, scaled to their size",
+     [](const PanelContext& e) { return e.selection.instances().size() > 1; }, run<replace_by_last>},
+    {"edit.replace_copied", "Replace by the copied", 0, 0,
+     "Puts copies of what was copied in the places of the selected things, scaled to their size",
+     [](const PanelContext& e) { return has_objects(e) && !e.copied.instances.empty(); }, run<replace_by_copied>},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0,
-     "Clear the selection; leave the entered group; close the help first if it is open",
+     "Clear the selection; leave the entered group; first close the help, or remove the array that is being made",
      [](const PanelContext& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
      [](Editor& e) {
          if (e.panel_open("Help")) return e.open_panel("Help", false);
+         if (cancel_array(e)) return;
          e.selection.clear();
          e.selection.enter({});
      }},

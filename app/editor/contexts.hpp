@@ -12,6 +12,7 @@
 
 #include "base/result.hpp"
 #include "copy_paste.hpp"
+#include "duplicating.hpp"
 #include "editor_options.hpp"
 #include "marks.hpp"
 #include "notices.hpp"
@@ -148,6 +149,7 @@ class SelectContext : public EditContext {
     std::optional<PickTool> pick_tool;
     std::optional<scene::Id<scene::Material>> material_clipboard;
     Copied copied;
+    LatestCopies latest_copies;
     ViewHistory views;
     // The picture's viewpoint: the scene's camera, or the view if it differs.
     const scene::Camera& camera() const;

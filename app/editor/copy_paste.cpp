@@ -6,11 +6,11 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "plugin/registry.hpp"
+#include "query/aside.hpp"
 #include "scene/edits.hpp"
 
 #include <imgui.h>
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace restage::editor {
@@ -112,18 +112,14 @@ void paste(Editor& e) {
 }
 
 glm::dvec3 aside(const SelectContext& e, const scene::Bounds& bounds) {
-    const glm::dvec3 right = glm::normalize(glm::dvec3(e.camera().camera_to_world[0]));
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
-        if (std::abs(right[i]) > std::abs(right[axis])) axis = i;
-    double length = bounds.empty() ? 0 : std::max(bounds.size()[axis] * 1.05, bounds.radius() * 0.1);
-    if (!(length > 0)) { // a lamp is a point
+    scene::Bounds box = bounds;
+    double least = bounds.radius() * 0.1;
+    if (!(least > 0)) { // a lamp is a point
         const scene::Bounds all = scene::world_bounds(e.scene());
-        length = all.empty() || !(all.radius() > 0) ? 1 : all.radius() * 0.1;
+        if (box.empty()) box.add(all.empty() ? glm::dvec3(0) : all.center());
+        least = all.radius() > 0 ? all.radius() * 0.1 : 1;
     }
-    glm::dvec3 step(0);
-    step[axis] = std::copysign(length, right[axis]);
-    return step;
+    return query::visible_offset(e.camera(), e.film_aspect(), e.up(), box, least);
 }
 
 } // namespace restage::editor

@@ -25,7 +25,7 @@ void copy_material(SelectContext& editor, scene::Id<scene::Material> material);
 // Objects and lights keep their places, or are put next to existing ones; a material is assigned to the selection.
 void paste(Editor& editor);
 bool newer_in_clipboard(const SelectContext& editor); // something from another window
-// To the right, as seen from the camera, by the size of the thing, along a world axis: there a copy is visible.
+// Beside the thing, where a copy is visible: see query::visible_offset.
 glm::dvec3 aside(const SelectContext& editor, const scene::Bounds& bounds);
 
 } // namespace restage::editor

@@ -99,7 +99,10 @@ void begin_drag(PanelContext& e, Drag& drag, bool copy) {
             drag.light = made->copy;
             drag.copied = true;
             e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "drag");
-            e.later([&e, id = made->copy] { e.selection.set_light(id); });
+            e.later([&e, id = made->copy, at = drag.light_start] {
+                e.selection.set_light(id);
+                e.latest_copies.made(id, at, glm::dmat4(1));
+            });
         }
         return;
     }
@@ -112,9 +115,10 @@ void begin_drag(PanelContext& e, Drag& drag, bool copy) {
             drag.start[i].first = made->copies[i];
         drag.copied = true;
         e.edit([edit = made->edit](const scene::Scene&) { return Result<scene::Edit>(edit); }, "drag");
-        e.later([&e, originals = drag.originals, copies = made->copies] {
+        e.later([&e, originals = drag.originals, copies = made->copies, at = drag.start.back().second] {
             e.selection.things.copied(originals, copies);
             e.selection.set(copies);
+            e.latest_copies.made(copies, at, glm::dmat4(1));
         });
     }
 }

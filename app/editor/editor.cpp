@@ -279,6 +279,7 @@ void Editor::apply_pending() {
     }
     follow_camera();
     selection.prune(scene());
+    latest_copies.follow(selection);
 }
 
 void Editor::refresh_picture() {

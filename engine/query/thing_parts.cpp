@@ -74,11 +74,13 @@ class Joiner {
         spread_anchors(units_, joined_);
         for (const Pair& pair : held)
             if (!units_[pair.first].anchored || !units_[pair.second].anchored) joined_.join(pair.first, pair.second);
-        // The rest only leans together. It belongs together where a side has no place of its own, or is inside the other.
+        // The rest only leans together. It belongs together where a side has no place of its own, or is inside the
+        // other.
         spread_anchors(units_, joined_);
         for (const Pair& pair : leaning) {
             const Unit &a = units_[pair.first], &b = units_[pair.second];
-            if (!a.anchored || !b.anchored || inside(a, b, touching_.at(pair).gap)) joined_.join(pair.first, pair.second);
+            if (!a.anchored || !b.anchored || inside(a, b, touching_.at(pair).gap))
+                joined_.join(pair.first, pair.second);
         }
         spread_anchors(units_, joined_);
         return std::move(joined_);
@@ -117,8 +119,8 @@ class Joiner {
         return outline;
     }
 
-    // Whether `whole`, parts of which stand on unit b, rests there by its weight: it could be taken away, or be somewhere
-    // else on it.
+    // Whether `whole`, parts of which stand on unit b, rests there by its weight: it could be taken away, or be
+    // somewhere else on it.
     bool rests(const std::vector<std::uint32_t>& whole, std::uint32_t b, std::span<const Pair> standing) {
         Bounds box;
         for (const std::uint32_t u : whole)

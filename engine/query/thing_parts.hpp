@@ -90,7 +90,7 @@ struct Unit { // stays together: a group, or a single object
     scene::Bounds box;
     bool architecture = false;
     bool own = false; // grouped by the user
-    double mounted = 0;    // share of its surface on walls
+    double mounted = 0; // share of its surface on walls
     bool anchored = false; // it has its own place: on a floor, on a wall, on something
     scene::Id<scene::Mesh> mesh; // of a single object
     std::size_t points = 0; // of its surface, sampled

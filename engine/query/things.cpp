@@ -112,7 +112,9 @@ class Finder {
                 if (&other == &part) continue;
                 (glm::dot(other.box.center() - center, *normal) > 0 ? above : below) += 1;
             }
-            const auto share = [&](std::size_t n) { return double(n) / double(std::max<std::size_t>(above + below, 1)); };
+            const auto share = [&](std::size_t n) {
+                return double(n) / double(std::max<std::size_t>(above + below, 1));
+            };
             if (normal->z > 0.9 && share(above) > 0.95)
                 part.architecture = has_floor_ = true;
             else if (std::max(share(above), share(below)) > 0.8)
@@ -254,7 +256,8 @@ class Finder {
             std::uint32_t u = parts_[p].unit, v = parts_[q].unit;
             if (units_[u].anchored == units_[v].anchored || units_[u].own || units_[v].own || stopped()) return;
             if (units_[u].anchored) std::swap(u, v), std::swap(p, q);
-            if (units_[v].architecture || touching_.contains({std::min(u, v), std::max(u, v)})) return; // the latter rests
+            if (units_[v].architecture || touching_.contains({std::min(u, v), std::max(u, v)}))
+                return; // the latter rests
             std::vector<dvec3> points;
             const double reach = far_gap * std::min(gap_of(units_[u]), gap_of(units_[v]));
             add_points(points, parts_[p], parts_[q], reach);
@@ -299,13 +302,16 @@ void Things::add(const Things& more) {
 }
 
 void Things::copied(std::span<const InstanceId> originals, std::span<const InstanceId> copies) {
-    std::map<std::uint32_t, std::vector<InstanceId>> made;
-    for (std::size_t i = 0; i < originals.size() && i < copies.size(); ++i)
-        if (const std::uint32_t thing = number(originals[i])) made[thing].push_back(copies[i]);
-    for (const InstanceId id : copies)
+    for (const InstanceId id : copies) {
         of.resize(std::max<std::size_t>(of.size(), id.value + 1), 0);
-    for (auto& [thing, ids] : made) {
-        if (ids.size() < members[thing].size()) continue;
+        of[id.value] = 0;
+    }
+    std::map<std::pair<std::size_t, std::uint32_t>, std::vector<InstanceId>> made; // by set and thing
+    for (std::size_t i = 0; i < copies.size() && !originals.empty(); ++i)
+        if (const std::uint32_t thing = number(originals[i % originals.size()]))
+            made[{i / originals.size(), thing}].push_back(copies[i]);
+    for (auto& [key, ids] : made) {
+        if (ids.size() < members[key.second].size()) continue;
         for (const InstanceId id : ids)
             of[id.value] = std::uint32_t(members.size());
         members.push_back(std::move(ids));

@@ -26,14 +26,15 @@ struct Things {
     }
     // Adds those of objects that were not known.
     void add(const Things& more);
-    // Copies of whole things are things; of a part, parts of nothing. `copies` in the order of `originals`.
+    // Copies of whole things are things; of a part, parts of nothing. `copies`: once or more in the order of
+    // `originals`.
     void copied(std::span<const scene::Id<scene::Instance>> originals,
                 std::span<const scene::Id<scene::Instance>> copies);
 };
 
-// `up`: unit. `imported_groups`: as in the result; the user's own groups are whole as they are. Of scenes with more than
-// `most_objects` objects only groups are looked at. `stop`: asked now and then; when it returns true, the result is
-// useless. [any]
+// `up`: unit. `imported_groups`: as in the result; the user's own groups are whole as they are. Of scenes with more
+// than `most_objects` objects only groups are looked at. `stop`: asked now and then; when it returns true, the result
+// is useless. [any]
 inline constexpr std::size_t most_objects = 20'000;
 Things find_things(const scene::Scene& scene, const glm::dvec3& up, std::uint32_t imported_groups,
                    const std::function<bool()>& stop = {});

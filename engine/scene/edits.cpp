@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/edits.hpp"
 
+#include "scene/arrange.hpp"
 #include "scene/edits_texture.hpp"
 #include "scene/uses.hpp"
 
@@ -152,7 +153,16 @@ Edit remove_unused(const Scene& scene) {
 }
 
 Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Instance>> ids, const glm::dmat4& move) {
-    if (!usable(move)) return fail("the displacement of the copies is not an invertible affine transform");
+    return duplicate_each(scene, ids, std::span(&move, 1));
+}
+
+Result<Duplicate> duplicate_each(const Scene& scene, std::span<const Id<Instance>> ids,
+                                 std::span<const glm::dmat4> moves) {
+    if (!std::ranges::all_of(moves, usable))
+        return fail("the displacement of the copies is not an invertible affine transform");
+    if (ids.size() * moves.size() > most_copies)
+        return fail("these would be " + std::to_string(ids.size() * moves.size()) + " copies; the most is " +
+                    std::to_string(most_copies));
     Duplicate result{{label_for(scene, "Duplicate", ids), {}}, {}};
     std::unordered_set<std::uint32_t> selected;
     for (const Id<Instance> id : ids) {
@@ -175,30 +185,33 @@ Result<Duplicate> duplicate_instances(const Scene& scene, std::span<const Id<Ins
     scene.instances.each([&](auto, const Instance& i) { instance_names.insert(i.name); });
     scene.groups.each([&](auto, const Group& g) { group_names.insert(g.name); });
     TriedNumbers tried, tried_groups;
-    std::unordered_map<std::uint32_t, Id<Group>> copy_of;
-    std::uint32_t next_group = scene.groups.next().value;
+    std::vector<Id<Group>> whole; // copied with the selection
     scene.groups.each([&](Id<Group> id, const Group&) {
-        if (touched.contains(id.value) && !kept.contains(id.value)) copy_of[id.value] = {next_group++};
+        if (touched.contains(id.value) && !kept.contains(id.value)) whole.push_back(id);
     });
-    const auto mapped = [&](Id<Group> id) {
-        const auto it = copy_of.find(id.value);
-        return it == copy_of.end() ? id : it->second;
-    };
-    scene.groups.each([&](Id<Group> id, const Group& group) {
-        if (!copy_of.contains(id.value)) return;
-        Group copy = group;
-        copy.name = next_name(group.name, group_names, &tried_groups);
-        copy.parent = mapped(group.parent);
-        result.edit.changes.push_back(Change<Group>{copy_of[id.value], std::nullopt, std::move(copy)});
-    });
-    std::uint32_t next = scene.instances.next().value;
-    for (const Id<Instance> id : ids) {
-        Instance copy = scene.instances[id];
-        copy.name = next_name(copy.name, instance_names, &tried);
-        copy.object_to_world = move * copy.object_to_world;
-        copy.group = mapped(copy.group);
-        result.copies.push_back({next});
-        result.edit.changes.push_back(Change<Instance>{{next++}, std::nullopt, std::move(copy)});
+    std::uint32_t next = scene.instances.next().value, next_group = scene.groups.next().value;
+    for (const glm::dmat4& move : moves) {
+        std::unordered_map<std::uint32_t, Id<Group>> copy_of;
+        for (const Id<Group> id : whole)
+            copy_of[id.value] = {next_group++};
+        const auto mapped = [&](Id<Group> id) {
+            const auto it = copy_of.find(id.value);
+            return it == copy_of.end() ? id : it->second;
+        };
+        for (const Id<Group> id : whole) {
+            Group copy = scene.groups[id];
+            copy.name = next_name(copy.name, group_names, &tried_groups);
+            copy.parent = mapped(copy.parent);
+            result.edit.changes.push_back(Change<Group>{copy_of[id.value], std::nullopt, std::move(copy)});
+        }
+        for (const Id<Instance> id : ids) {
+            Instance copy = scene.instances[id];
+            copy.name = next_name(copy.name, instance_names, &tried);
+            copy.object_to_world = move * copy.object_to_world;
+            copy.group = mapped(copy.group);
+            result.copies.push_back({next});
+            result.edit.changes.push_back(Change<Instance>{{next++}, std::nullopt, std::move(copy)});
+        }
     }
     return result;
 }

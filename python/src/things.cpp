@@ -3,6 +3,7 @@
 #include "workspace.hpp"
 
 #include "query/support.hpp"
+#include "scene/arrange.hpp"
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -52,6 +53,18 @@ GroupHandle copy_as(const GroupHandle& original, const Objects& copies, Id<Group
     while (s.groups[group].parent.value >= first_new.value)
         group = s.groups[group].parent;
     return {original.in, group};
+}
+
+Selection copies_at(const std::shared_ptr<Workspace>& in, const Objects& ids, const std::vector<glm::dmat4>& moves) {
+    auto made = take(duplicate_each(in->scene(), ids, moves));
+    made.edit.label.replace(0, std::string_view("Duplicate").size(), "Array of");
+    in->edit(std::move(made.edit));
+    return {in, made.copies};
+}
+
+int at_least_one(int count) {
+    if (count < 1) throw Failure("array: count is " + std::to_string(count) + "; it includes the original");
+    return count;
 }
 
 // The operations of everything that represents objects.
@@ -138,6 +151,43 @@ void bind_verbs(nb::class_<C>& c) {
                 return copy_as(self, made.copies, first_new);
             },
             "by"_a = Three{0, 0, 0}, "A copy, moved by this vector; it shares meshes and materials. Returns the copy.")
+        .def(
+            "mirror",
+            [](const C& self, const std::string& axis, std::optional<double> at) {
+                const std::size_t i = std::string_view("xyz").find(axis);
+                if (axis.size() != 1 || i > 2) throw Failure("mirror: axis is \"" + axis + "\"; it must be x, y or z");
+                const Objects ids = objects_of(self);
+                const double place = at ? *at : bounds_of(*self.in, ids).center()[int(i)];
+                self.in->edit(mirror(self.in->scene(), ids, int(i), place));
+            },
+            "axis"_a, "at"_a = nb::none(),
+            "Mirrors it along the world's axis \"x\", \"y\" or \"z\", at this coordinate (default: the centre of the "
+            "bounds).")
+        .def(
+            "array",
+            [](const C& self, int count, const Three& by) {
+                return copies_at(self.in, objects_of(self), line_array(at_least_one(count), vec(by)));
+            },
+            "count"_a, "by"_a,
+            "A row of `count` things with the original, each displaced by this vector from the one before [scene "
+            "units]. "
+            "Copies share meshes and materials. Returns the copies, one step of undo.")
+        .def(
+            "array_around",
+            [](const C& self, int count, const Three& center, const std::optional<Three>& axis, double degrees,
+               bool turn) {
+                const Objects ids = objects_of(self);
+                const glm::dvec3 about = axis ? vec(*axis) : self.in->up();
+                if (!(glm::length(about) > 0)) throw Failure("array_around: the axis has no length");
+                return copies_at(self.in, ids,
+                                 circle_array({at_least_one(count), vec(center), about, degrees, turn},
+                                              bounds_of(*self.in, ids).center()));
+            },
+            "count"_a, "center"_a, "axis"_a = nb::none(), "degrees"_a = 360.0, "turn"_a = true,
+            "A circle of `count` things with the original around a point, about an axis (default: the scene's up); "
+            "less "
+            "than 360 degrees: an arc from the first to the last. turn=False: all keep their direction. Returns the "
+            "copies, one step of undo.")
         .def(
             "remove", [](const C& self) { self.in->edit(remove_instances(self.in->scene(), objects_of(self))); },
             "Removes it from the scene. Its meshes and materials stay: see Session.remove_unused.")

@@ -98,6 +98,30 @@ def test_copies_share_and_removed_things_are_gone(demo):
     assert copy.exists and copy.name == "Chair 4"
 
 
+def test_things_are_mirrored_and_repeated(demo):
+    chair = demo.find("Chair")
+    before, steps = chair.bounds.copy(), demo.history
+    chair.mirror("x", at=1.0)
+    assert np.allclose(chair.bounds[:, 0], 2 - before[::-1, 0]) and np.allclose(chair.bounds[:, 1:], before[:, 1:])
+    chair.mirror("x", at=1.0)
+    chair.mirror("y")
+    assert np.allclose(chair.bounds, before)
+    with pytest.raises(restage.Error, match="x, y or z"):
+        chair.mirror("w")
+    row = chair.array(4, by=(0, -1, 0))
+    assert len(row) == 3 * len(chair.objects)
+    assert np.allclose(row.bounds[0], before[0] - (0, 3, 0))
+    assert len(demo.history) == len(steps) + 4
+    ring = chair.array_around(4, center=(0, 0, 0))
+    assert np.allclose(ring.objects[0].transform[:3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]] @ chair.objects[0].transform[:3, :3])
+    straight = chair.array_around(2, center=(0, 0, 0), axis=(0, 0, 1), degrees=90, turn=False)
+    assert np.allclose(straight.center, (-chair.center[1], chair.center[0], chair.center[2]))
+    with pytest.raises(restage.Error, match="count is 0"):
+        chair.array(0, by=(1, 0, 0))
+    with pytest.raises(restage.Error, match="most is 100000"):
+        chair.array(90000, by=(1, 0, 0))
+
+
 def test_hidden_objects_and_emission(demo):
     vase = demo.find("Vase")
     assert not vase.hidden

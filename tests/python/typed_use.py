@@ -32,6 +32,9 @@ def use(folder: pathlib.Path) -> None:
         sheet.emission = None
         sheet.material = brass
         copy = sheet.duplicate(by=np.array([1, 0, 0]))
+        copy.mirror("x", at=1)
+        row: restage.Selection = copy.array(3, by=(1, 0, 0))
+        row.array_around(2, np.zeros(3), degrees=90, turn=False).remove()
         group = session.add_group([sheet, copy], "Pair")
         found: restage.Group | restage.Object = session.find("Pair")
         session.select(found, sheet).hidden = True

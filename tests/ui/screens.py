@@ -310,6 +310,25 @@ def scene_rendering(s):
 
 
 @state
+def arrange(s):
+    s.start(DEMO)
+    s.select("Chair frame", "Vase")
+    s.editor.key("ctrl+shift+a")
+    s.editor.wait(lambda t: "arrange.replace" in t["marks"], "the panel")
+    s.rest()
+
+
+@state
+def arrange_array(s):
+    s.start(DEMO)
+    s.select("Vase")
+    s.editor.key("ctrl+shift+d")
+    s.editor.wait(lambda t: "array.keep" in t["marks"], "the array")
+    s.rest()
+    s.editor.settled(samples=8, seconds=240)
+
+
+@state
 def history(s):
     s.start(DEMO)
     s.tab("History")

@@ -24,13 +24,14 @@ std::set<std::string> selected(Headless& h) {
 
 // A table of five objects and a box on it, over a floor; nothing is grouped.
 std::string table() {
-    std::string text = "LookAt 0 -3 2  0 0 0.4  0 0 1\nCamera \"perspective\" \"float fov\" 45\n"
-                       "Film \"rgb\" \"integer xresolution\" 640 \"integer yresolution\" 360\nWorldBegin\n"
-                       "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial \"diffuse\"\n";
+    std::string text =
+        "LookAt 0 -3 2  0 0 0.4  0 0 1\nCamera \"perspective\" \"float fov\" 45\n"
+        "Film \"rgb\" \"integer xresolution\" 640 \"integer yresolution\" 360\nWorldBegin\n"
+        "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial \"diffuse\"\n";
     const auto box = [&](const char* name, double x, double y, double z, double a, double b, double c) {
-        text += "# " + std::string(name) + "\nAttributeBegin\nTranslate " + std::to_string(x) + " " + std::to_string(y) +
-                " " + std::to_string(z) + "\nScale " + std::to_string(a) + " " + std::to_string(b) + " " +
-                std::to_string(c) +
+        text += "# " + std::string(name) + "\nAttributeBegin\nTranslate " + std::to_string(x) + " " +
+                std::to_string(y) + " " + std::to_string(z) + "\nScale " + std::to_string(a) + " " + std::to_string(b) +
+                " " + std::to_string(c) +
                 "\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1 ] "
                 "\"integer indices\" [ 0 1 3 0 3 2 4 5 7 4 7 6 0 1 5 0 5 4 2 3 7 2 7 6 0 2 6 0 6 4 1 3 7 1 7 5 ]\n"
                 "AttributeEnd\n";
@@ -64,8 +65,9 @@ TEST_CASE("a click takes all of a thing, a double click a part of it, and its co
             if (frame->image.instance_id[i] == wanted) pixels.push_back(i);
         if (pixels.empty()) return std::nullopt;
         const std::size_t i = pixels[pixels.size() / 2], width = frame->image.width;
-        return ImVec2(picture->x0 + (picture->x1 - picture->x0) * (float(i % width) + 0.5f) / float(width),
-                      picture->y0 + (picture->y1 - picture->y0) * (float(i / width) + 0.5f) / float(frame->image.height));
+        return ImVec2(
+            picture->x0 + (picture->x1 - picture->x0) * (float(i % width) + 0.5f) / float(width),
+            picture->y0 + (picture->y1 - picture->y0) * (float(i / width) + 0.5f) / float(frame->image.height));
     };
     h.play("things", [&](ImGuiTestContext* ctx) {
         h.wait_for(ctx, "picture");

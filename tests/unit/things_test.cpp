@@ -221,3 +221,20 @@ TEST_CASE("scenes with nothing to find", "[things]") {
     // Asked to stop.
     CHECK(query::find_things(shop.scene, {0, 0, 1}, 0, [] { return true; }).members.size() == 1);
 }
+
+TEST_CASE("several copies of a thing are as many things", "[things]") {
+    Shop shop;
+    const Ids a = shop.chair({0, 0, 0});
+    query::Things things = shop.find();
+    Ids all;
+    for (int i = 1; i < 4; ++i) {
+        const auto made = *duplicate_instances(shop.scene, a, glm::translate(glm::dmat4(1), glm::dvec3(i, 0, 0)));
+        apply(shop.scene, made.edit);
+        all.insert(all.end(), made.copies.begin(), made.copies.end());
+    }
+    things.copied(a, all);
+    CHECK((taken(shop, things, all[7]) == Ids(all.begin() + 6, all.begin() + 12)));
+    things.copied(Ids{a[0]}, Ids{all[7]}); // the id was used again
+    CHECK((taken(shop, things, all[7]) == Ids{all[7]}));
+    CHECK((taken(shop, things, all[17]) == Ids(all.begin() + 12, all.end())));
+}

@@ -20,6 +20,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"Outliner", give<draw_outliner>, Dock::left, true, "Everything in the scene, by name"},
     {"Inspector", give<draw_inspector>, Dock::right, true, "The selection: its place, material and light"},
     {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and rendering"},
+    {"Arrange", give<draw_arrange>, Dock::right, false, "Align, distribute, mirror, repeat and replace the selection"},
     {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
     {"Import report", give<draw_import_report>, Dock::bottom, true,
      "What was kept, approximated or dropped on opening"},

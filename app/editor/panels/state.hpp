@@ -2,6 +2,7 @@
 // State that panels keep from frame to frame. Not part of the document; one per editor.
 #pragma once
 
+#include "arrange.hpp"
 #include "assets.hpp"
 #include "check/step.hpp"
 #include "finding_things.hpp"
@@ -125,6 +126,8 @@ struct PanelState {
         report = {};
         convergence.current = {};
         convergence.previous = {};
+        arrange.live.reset();
+        arrange.found = {};
         history_seen = 0;
         plugins.asked.clear(); // may refer to its things
     }
@@ -134,6 +137,7 @@ struct PanelState {
     SkyMaking skies;
     FindingThings things;
     InspectorState inspector;
+    ArrangeState arrange;
     OutlinerState outliner;
     SceneState scene;
     ReportState report;
