@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "selection.hpp"
 
+#include "scene/edits_groups.hpp"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -41,10 +43,7 @@ void Selection::prune(const scene::Scene& scene) {
 }
 
 bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer) {
-    for (const scene::Group* group = scene.groups.find(inner); group;
-         inner = group->parent, group = scene.groups.find(inner))
-        if (inner == outer) return true;
-    return false;
+    return scene::is_in_group(scene, inner, outer);
 }
 
 std::vector<InstanceId> instances_in(const scene::Scene& scene, GroupId group) {
