@@ -6,6 +6,8 @@
 #include "check/step.hpp"
 #include "image_loads.hpp"
 #include "material_balls.hpp"
+#include "palette.hpp"
+#include "scene/statistics.hpp"
 #include "selection.hpp"
 #include "sky_making.hpp"
 
@@ -64,6 +66,13 @@ struct OutlinerState {
     std::string new_name;
     bool focus_name = false;
     InstanceId last_active; // the list scrolls when it changes elsewhere
+    std::vector<GroupId> dragged; // groups that are dragged whole, with the selection
+    std::string drop_problem; // why what is dragged cannot be dropped at the mouse; "" = it can
+};
+
+struct StatisticsState {
+    scene::Version made_for = ~scene::Version(0);
+    scene::Statistics scene;
 };
 
 struct SceneState {
@@ -138,6 +147,8 @@ struct PanelState {
     ConvergenceState convergence;
     PluginState plugins;
     AssetsState assets;
+    PaletteState palette;
+    StatisticsState statistics;
     ImportState importing;
     std::size_t history_seen = 0;
     int history_mib = 0; // while it is typed
