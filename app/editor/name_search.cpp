@@ -124,6 +124,18 @@ bool each_word(std::string_view query, F&& f) {
     return true;
 }
 
+// Every word fits the name, or begins a word of `more`.
+int fit_either(std::string_view name, std::string_view more, std::string_view query) {
+    int sum = 0, words = 0;
+    const bool all = each_word(query, [&](std::string_view word) {
+        const int one = std::max(fit_word(name, word, nullptr), fit_whole(more, word, nullptr) >= 800 ? 100 : 0);
+        sum += one;
+        ++words;
+        return one > 0;
+    });
+    return all ? sum / words : 0;
+}
+
 std::string_view trimmed(std::string_view query) {
     while (!query.empty() && query.front() == ' ')
         query.remove_prefix(1);
@@ -187,10 +199,7 @@ std::vector<std::uint32_t> NameList::find(std::string_view query) const {
         const Item& item = items_[i];
         if ((item.letters & wanted) != wanted) continue;
         int found = fit(text(item.name), query);
-        if (found == 0 && item.more.size > 0) // every word begins one there
-            found = each_word(query, [&](std::string_view word) {
-                return fit_whole(text(item.more), word, nullptr) >= 800;
-            });
+        if (found == 0 && item.more.size > 0) found = fit_either(text(item.name), text(item.more), query);
         if (found == 0) continue;
         fits[i] = std::uint16_t(found + item.bonus);
         ++below[std::size_t(fits[i])];

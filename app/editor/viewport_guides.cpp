@@ -60,7 +60,7 @@ void Viewport::draw_grid(PanelContext& e) {
         const auto x = std::size_t(p.x * image.width), y = std::size_t(p.y * image.height);
         const float depth = image.depth[y * image.width + x]; // a distance along the ray
         const double away = parallel ? p.z : glm::length(world - eye);
-        return {at, !(depth > 0) || away <= double(depth) * 1.005 + 0.02 * step};
+        return {at, !(depth > 0) || away <= double(depth) * 1.005 + 0.1 * step}; // rugs are thin
     };
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -73,15 +73,19 @@ void Viewport::draw_grid(PanelContext& e) {
             world[beside] += i * step;
             const auto number = std::lround(world[beside] / step); // of the line, from the origin
             const ImVec4& color = number == 0 ? colors::axes[along] : ImGui::GetStyleColorVec4(ImGuiCol_Text);
-            const float strength = number == 0 ? 0.9f : number % 5 == 0 ? 0.45f : 0.2f;
+            const float strength = number == 0 ? 0.9f : number % 5 == 0 ? 0.65f : 0.3f;
             constexpr int pieces = 2; // to a step
             Node last{};
             for (int j = -half_lines * pieces; j <= half_lines * pieces; ++j) {
                 world[along] = centre[along] + j * step / pieces;
                 const Node now = node(world);
                 const float fade = 1 - std::hypot(float(i), float(j) / pieces) / half_lines;
-                if (j > -half_lines * pieces && now.visible && last.visible && fade > 0)
-                    draw->AddLine(last.at, now.at, faded(color, strength * std::min(2 * fade, 1.f)), thick);
+                if (j > -half_lines * pieces && now.visible && last.visible && fade > 0) {
+                    const float alpha = strength * std::min(2 * fade, 1.f);
+                    draw->AddLine({last.at.x, last.at.y + thick}, {now.at.x, now.at.y + thick},
+                                  faded(colors::over_picture, 0.6f * alpha), thick); // for bright floors
+                    draw->AddLine(last.at, now.at, faded(color, alpha), thick);
+                }
                 last = now;
             }
         }
@@ -182,7 +186,10 @@ void Viewport::draw_layer_note(PanelContext& e) {
                       ImGuiChildFlags_Borders | ImGuiChildFlags_AutoResizeY);
     ImGui::TextColored(colors::accent, "%s", layer.label);
     ImGui::TextWrapped("%s", layer.about);
-    if (scale_.dark != scale_.bright) draw_legend(e, scale_);
+    if (e.view.display.layer == view::error_layer && drawn_->image.samples < 2)
+        warning_note("It is known from two samples per pixel on");
+    else if (scale_.dark != scale_.bright)
+        draw_legend(e, scale_);
     const std::string key = e.action_state("show.picture").key;
     if (ImGui::Button(fmt::format("Back to the picture ({})", key).c_str())) e.view.display.layer = view::picture_layer;
     e.mark("layer.back");

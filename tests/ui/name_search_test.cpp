@@ -62,6 +62,7 @@ TEST_CASE("other text is found after all names, used things before their equals"
     CHECK(list.find("hide") == std::vector<std::uint32_t>{0, 1});
     CHECK(list.find("hid") == std::vector<std::uint32_t>{3, 0, 2, 1});
     CHECK(list.find("objects")[0] == 2);
+    CHECK(list.find("sel hide") == std::vector<std::uint32_t>{0}); // a word in either
 }
 
 TEST_CASE("the matched letters are those that the order is by", "[ui]") {

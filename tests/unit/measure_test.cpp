@@ -28,8 +28,8 @@ struct Wall {
         wall = scene.instances.next();
         scene.instances.set(wall,
                             Instance{.name = "wall",
-                                     .object_to_world = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 5)),
-                                     .mesh = Id<Mesh>{1}},
+                                     .mesh = Id<Mesh>{1},
+                                     .object_to_world = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 5))},
                             ++scene.clock);
         camera.fov = 60;
     }

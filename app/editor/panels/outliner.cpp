@@ -227,10 +227,10 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
     }
     e.mark("outliner.group." + group->name);
     drag_source(e, state, [&] {
-        const std::vector<InstanceId> held = instances_in(e.scene(), id);
-        if (!std::ranges::all_of(held, [&](InstanceId one) { return e.selection.contains(one); }))
-            e.selection.set(held);
         state.dragged = dragged_groups(e, id);
+        if (!state.dragged.empty()) return;
+        state.dragged = {id};
+        e.selection.set(instances_in(e.scene(), id));
     });
     drop_target(e, state, id);
     if (ImGui::BeginPopupContextItem("group")) {

@@ -23,7 +23,7 @@ void start_renaming(OutlinerState& state, const OutlinerState::Row& row, const s
 
 // The selected objects, and these groups with all they hold; none = out of their groups.
 void move_to_group(SelectContext& editor, GroupId to, const std::vector<GroupId>& groups = {});
-// What a drag of that group moves: it, and the outermost groups that are selected whole.
+// The outermost groups that are selected whole, if it is one of them; else none: it alone is dragged.
 std::vector<GroupId> dragged_groups(const SelectContext& editor, GroupId group);
 void group_selected(SelectContext& editor);
 void ungroup(EditContext& editor, GroupId group); // its contents move to the parent group

@@ -5,6 +5,7 @@
 #include "scene/edits_groups.hpp"
 #include "scene/merge.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace restage::editor {
@@ -26,13 +27,12 @@ std::vector<GroupId> dragged_groups(const SelectContext& e, GroupId group) {
             if (++steps > s.groups.size()) break;
         }
     });
-    std::vector<GroupId> found{group};
+    std::vector<GroupId> found;
     s.groups.each([&](GroupId id, const scene::Group& item) {
         const bool outermost = !s.groups.find(item.parent) || !whole[item.parent.value];
-        if (id != group && whole[id.value] && used[id.value] && outermost && !is_within(s, id, group))
-            found.push_back(id);
+        if (whole[id.value] && used[id.value] && outermost) found.push_back(id);
     });
-    return found;
+    return std::ranges::find(found, group) != found.end() ? found : std::vector<GroupId>();
 }
 
 void group_selected(SelectContext& e) {

@@ -50,7 +50,7 @@ void line(PanelUi& e, const char* what, const std::string& value) {
     ImGui::TableNextColumn();
     ImGui::TextColored(colors::dim, "%s", what);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(value.c_str());
+    ImGui::TextWrapped("%s", value.c_str());
     e.mark(std::string("statistics.") + what);
 }
 
