@@ -23,8 +23,8 @@ class NameList {
   public:
     static constexpr int most_bonus = 200;
     void clear();
-    // `more`: other text, of which words may begin with one of the query; worth less ("Ctrl+Z"). `bonus`: added to its fit, from 0
-    // to most_bonus; used things have one.
+    // `more`: other text, of which words may begin with one of the query; worth less ("Ctrl+Z"). `bonus`: added to its
+    // fit, from 0 to most_bonus; used things have one.
     void add(std::string_view name, std::string_view more = {}, int bonus = 0);
     std::size_t size() const { return items_.size(); }
     std::string_view name(std::size_t i) const { return text(items_[i].name); }

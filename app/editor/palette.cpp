@@ -101,8 +101,8 @@ void select(PanelContext& e, const PaletteItem& item) {
             if (i.material.value == item.id) ids.push_back(id);
         });
     if (ids.empty())
-        e.notices.add(LogLevel::info, item.kind == Kind::material ? "No object has this material"
-                                                                  : "There is nothing in this group");
+        e.notices.add(LogLevel::info,
+                      item.kind == Kind::material ? "No object has this material" : "There is nothing in this group");
     else
         e.selection.set(ids);
 }
@@ -180,17 +180,19 @@ bool draw_row(PanelContext& e, PaletteState& p, int row) {
     ImGui::PushID(row);
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
     ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
-    const bool pressed = ImGui::Selectable("##row", here, ImGuiSelectableFlags_NoAutoClosePopups,
-                                           {0, ImGui::GetFrameHeight()});
+    const bool pressed =
+        ImGui::Selectable("##row", here, ImGuiSelectableFlags_NoAutoClosePopups, {0, ImGui::GetFrameHeight()});
     ImGui::PopStyleColor(2);
     ImGui::PopID();
     const ImVec2 mouse_moved = ImGui::GetIO().MouseDelta;
-    if (ImGui::IsItemHovered() && (mouse_moved.x != 0 || mouse_moved.y != 0)) p.cursor = row;
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered && (mouse_moved.x != 0 || mouse_moved.y != 0)) p.cursor = row;
     e.mark(fmt::format("palette.{}.{}", kind_name(item.kind), name));
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const float y = from.y + (to.y - from.y - ImGui::GetTextLineHeight()) / 2, gap = ImGui::GetStyle().ItemSpacing.x;
-    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text), dim = here ? text : ImGui::GetColorU32(colors::dim);
+    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text),
+                dim = here || hovered ? text : ImGui::GetColorU32(colors::dim);
     std::string right = kind_name(item.kind);
     if (item.kind == Kind::action) {
         const auto state = e.action_state(all_actions()[item.id].id);
@@ -253,10 +255,9 @@ void draw_palette(PanelContext& e) {
     if (p.made_for != e.scene().clock) list_items(e, p); // something goes on in the background
     if (std::exchange(p.focus, false)) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    bool entered = ImGui::InputTextWithHint("##query", "An action, panel, object, group, light, material or camera",
-                                            &p.query,
-                                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory,
-                                            on_arrow, &p);
+    bool entered = ImGui::InputTextWithHint(
+        "##query", "An action, panel, object, group, light, material or camera", &p.query,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, on_arrow, &p);
     e.mark("palette.query");
     How how = How::choose;
     if (ImGui::IsKeyChordPressed(ImGuiMod_Shift | ImGuiKey_Enter)) entered = true, how = How::frame;

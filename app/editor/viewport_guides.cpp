@@ -38,12 +38,11 @@ void Viewport::draw_grid(PanelContext& e) {
     if (std::exchange(world_of_, e.scene().clock) != e.scene().clock) world_ = scene::world_bounds(e.scene());
     if (world_.empty()) return;
     const int up = axis_of(e.up()), across[] = {(up + 1) % 3, (up + 2) % 3};
-    const double step =
-        query::grid_step(std::max({world_.size()[across[0]], world_.size()[across[1]], 1e-6}));
+    const double step = query::grid_step(std::max({world_.size()[across[0]], world_.size()[across[1]], 1e-6}));
     const double lowest = e.up()[up] > 0 ? world_.lower[up] : world_.upper[up];
     const double floor = world_.lower[up] <= 0 && world_.upper[up] >= 0 ? 0 : lowest;
     const glm::dvec3 centre = glm::round(world_.center() / step) * step;
-    const scene::Camera camera = e.camera();
+    const scene::Camera& camera = e.camera();
     const double aspect = e.film_aspect();
     const glm::dvec3 eye(camera.camera_to_world[3]);
     const bool parallel = camera.projection == scene::Projection::orthographic;
@@ -95,7 +94,8 @@ void Viewport::draw_grid(PanelContext& e) {
 
 void Viewport::draw_axes(PanelContext& e) {
     const float scale = ImGui::GetStyle().FontScaleMain, radius = 30 * scale, ball = 9 * scale;
-    if (!e.view.show_axes || !e.view.show_overlays || !picture_.ready() || std::min(size.x, size.y) < 6 * radius) return;
+    if (!e.view.show_axes || !e.view.show_overlays || !picture_.ready() || std::min(size.x, size.y) < 6 * radius)
+        return;
     const ImVec2 c(corner.x + size.x - radius - 18 * scale, corner.y + radius + 18 * scale);
     const glm::dmat4& camera = e.camera().camera_to_world;
     struct End {
@@ -136,7 +136,8 @@ void Viewport::draw_axes(PanelContext& e) {
         const bool here = hovered == &*end;
         if (end->sign > 0) draw->AddLine(c, end->at, ImGui::GetColorU32(color), 2 * scale);
         if (end->sign > 0 || here)
-            draw->AddCircleFilled(end->at, ball, ImGui::GetColorU32(here ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : color));
+            draw->AddCircleFilled(end->at, ball,
+                                  ImGui::GetColorU32(here ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : color));
         else
             draw->AddCircleFilled(end->at, ball * 0.7f, faded(color, 0.45f));
         if (end->sign < 0 && !here) continue;
@@ -165,8 +166,8 @@ void draw_legend(PanelContext& e, const view::Scale& scale) {
         return scale.logarithmic ? scale.dark * std::pow(scale.bright / scale.dark, part)
                                  : scale.dark + part * (scale.bright - scale.dark);
     };
-    const std::string first = fmt::format("{:.3g}{}", value(0), scale.unit), last = fmt::format("{:.3g}{}", value(1), scale.unit),
-                      middle = fmt::format("{:.3g}", value(0.5f));
+    const std::string first = fmt::format("{:.3g}{}", value(0), scale.unit),
+                      last = fmt::format("{:.3g}{}", value(1), scale.unit), middle = fmt::format("{:.3g}", value(0.5f));
     const float y = ImGui::GetCursorPosY(), x = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(first.c_str());
     ImGui::SetCursorPos({x + (width - ImGui::CalcTextSize(middle.c_str()).x) / 2, y});
@@ -178,7 +179,8 @@ void draw_legend(PanelContext& e, const view::Scale& scale) {
 } // namespace
 
 void Viewport::draw_layer_note(PanelContext& e) {
-    if (e.view.display.layer == view::picture_layer || !e.view.show_overlays || !drawn_ || e.opening().running()) return;
+    if (e.view.display.layer == view::picture_layer || !e.view.show_overlays || !drawn_ || e.opening().running())
+        return;
     const float scale = ImGui::GetStyle().FontScaleMain;
     const view::LayerChoice& layer = view::layer_choice(e.view.display.layer);
     ImGui::SetCursorScreenPos({corner.x + 8 * scale, corner.y + 8 * scale});

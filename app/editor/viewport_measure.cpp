@@ -41,7 +41,8 @@ bool Viewport::run_measuring(PanelContext& e, bool over) {
     const auto label = [&](const std::string& text, ImVec2 place, const char* mark) {
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
         const ImVec2 lower(place.x - extent.x / 2 - 5 * scale, place.y - extent.y - 12 * scale);
-        draw->AddRectFilled(lower, {lower.x + extent.x + 10 * scale, lower.y + extent.y + 6 * scale}, ground, 3 * scale);
+        draw->AddRectFilled(lower, {lower.x + extent.x + 10 * scale, lower.y + extent.y + 6 * scale}, ground,
+                            3 * scale);
         draw->AddText({lower.x + 5 * scale, lower.y + 3 * scale}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
         e.mark(mark, lower, {lower.x + extent.x, lower.y + extent.y});
     };

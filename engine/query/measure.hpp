@@ -14,8 +14,8 @@ struct SurfacePoint {
     bool vertex = false; // it is one of the mesh
 };
 
-// The surface seen at a point of the film ((0,0) top left, (1,1) bottom right); none: nothing is there. A vertex of that
-// object nearer than `snap`, in heights of the film, is returned instead, unless it is behind the surface.
+// The surface seen at a point of the film ((0,0) top left, (1,1) bottom right); none: nothing is there. A vertex of
+// that object nearer than `snap`, in heights of the film, is returned instead, unless it is behind the surface.
 std::optional<SurfacePoint> surface_point(const scene::Scene&, const scene::Camera&, glm::dvec2 film, double aspect,
                                           double snap);
 

@@ -112,20 +112,23 @@ const char* about(LayerLook look) {
 
 } // namespace
 
+static_assert(clay_layer == "clay" && wire_layer == "wires" && uv_layer == "uv" && samples_layer == "samples" &&
+              error_layer == "error"); // as below, where they are C strings
+
 std::span<const LayerChoice> layer_choices() {
     static const std::vector<LayerChoice> choices = [] {
         std::vector<LayerChoice> all;
         render::each_film_layer([&](const auto& layer) {
             if (layer.look != LayerLook::hidden) all.push_back({layer.name, layer.label, about(layer.look)});
             if (layer.look == LayerLook::light) {
-                all.push_back({clay_layer.data(), "Clay", "The shape of things alone: nothing is traced meanwhile"});
-                all.push_back({wire_layer.data(), "Wireframe", "Edges of triangles; where these are small, fainter"});
-                all.push_back({uv_layer.data(), "UV checker",
+                all.push_back({"clay", "Clay", "The shape of things alone: nothing is traced meanwhile"});
+                all.push_back({"wires", "Wireframe", "Edges of triangles; where these are small, fainter"});
+                all.push_back({"uv", "UV checker",
                                "Texture coordinates: chequers of 1/8, redder with u, greener with v; blue = none"});
             }
         });
-        all.push_back({samples_layer.data(), "Samples", "How many samples each pixel got"});
-        all.push_back({error_layer.data(), "Error", "Estimated relative error of each pixel"});
+        all.push_back({"samples", "Samples", "How many samples each pixel got"});
+        all.push_back({"error", "Error", "Estimated relative error of each pixel"});
         return all;
     }();
     return choices;

@@ -36,7 +36,8 @@ std::string marked(std::string_view name, std::string_view query) { // "[ch]air"
 } // namespace
 
 TEST_CASE("names fit by their beginning, by words, by parts, by letters in order", "[ui]") {
-    const std::vector<std::string> names{"unchained", "cushion hair", "armchair", "the chair", "chair 2", "chair", "lamp"};
+    const std::vector<std::string> names{"unchained", "cushion hair", "armchair", "the chair",
+                                         "chair 2",   "chair",        "lamp"};
     CHECK(order(names, "chair") ==
           std::vector<std::string>{"chair", "chair 2", "the chair", "armchair", "cushion hair"});
     CHECK(order(names, "CHAIR") == order(names, "chair"));
@@ -78,14 +79,16 @@ TEST_CASE("100,000 names are searched between two keystrokes", "[ui]") {
     NameList list;
     for (int i = 0; i < 100000; ++i)
         list.add((i % 3 ? "Mesh.Chair leg " : "Sponza_column_") + std::to_string(i));
-    const std::pair<const char*, std::size_t> queries[] = {{"m", 100000}, {"chair", 66666}, {"mcl", 66666}, {"leg 77", 0}};
+    const std::pair<const char*, std::size_t> queries[] = {
+        {"m", 100000}, {"chair", 66666}, {"mcl", 66666}, {"leg 77", 0}};
     for (const auto& [query, least] : queries) {
         double best = 1e9; // [ms]
         std::size_t found = 0;
         for (int i = 0; i < 5; ++i) {
             const auto start = std::chrono::steady_clock::now();
             found = list.find(query).size();
-            best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+            best = std::min(
+                best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         }
         INFO(query << ": " << best << " ms, " << found << " found");
         CHECK(found >= least);

@@ -27,7 +27,9 @@ std::string count_text(std::size_t n) { // with separators: 1,234,567
 std::string bytes_text(std::size_t bytes) { return fmt::format("{:.1f} MiB", double(bytes) / (1024 * 1024)); }
 
 std::string time_text(double seconds) {
-    return seconds <= 0 ? "-" : seconds < 1 ? fmt::format("{:.1f} ms", seconds * 1e3) : fmt::format("{:.2f} s", seconds);
+    return seconds <= 0  ? "-"
+           : seconds < 1 ? fmt::format("{:.1f} ms", seconds * 1e3)
+                         : fmt::format("{:.2f} s", seconds);
 }
 
 // Of this process, as Linux reports it [byte]; 0 where it does not.
@@ -87,7 +89,8 @@ void picture_part(PanelUi& e, const PictureView& picture) {
     heading("Picture");
     line(e, "Tracer", status.tracer.empty() ? "-" : status.tracer + " on " + status.device);
     if (frame)
-        line(e, "Size", fmt::format("{} × {}, {} samples", frame->image.width, frame->image.height, frame->image.samples));
+        line(e, "Size",
+             fmt::format("{} × {}, {} samples", frame->image.width, frame->image.height, frame->image.samples));
     line(e, "Speed", fmt::format("{:.2f} million samples/s", status.samples_per_second * 1e-6));
     line(e, "Since the change", time_text(frame ? frame->seconds : 0));
     line(e, "Scene update", time_text(status.update_seconds));
