@@ -6,34 +6,23 @@
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
 #include "scene/placeholder.hpp"
+#include "scene/statistics.hpp"
 
 #include <fmt/format.h>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 namespace restage::app {
 namespace {
 
 nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registry& registry) {
     const scene::Scene& s = imported.scene;
-    std::size_t geometry = 0, pixels = 0, triangles = 0, instanced = 0, emitters = 0;
+    const scene::Statistics counted = scene::statistics_of(s);
+    std::size_t emitters = 0;
     const io::MaterialEmissions emissions(registry, s);
-    std::set<const void*> seen;
-    s.meshes.each([&](auto, const scene::Mesh& m) {
-        if (!m.data || !seen.insert(m.data.get()).second) return;
-        triangles += m.data->triangles.size();
-        geometry += m.data->positions.size() * 12 + m.data->normals.size() * 12 + m.data->uvs.size() * 8 +
-                    m.data->uvs2.size() * 8 + m.data->tangents.size() * 16 + m.data->triangles.size() * 12;
-    });
-    s.images.each([&](auto, const scene::Image& i) { pixels += i.data ? i.data->values.size() * sizeof(float) : 0; });
-    s.instances.each([&](auto, const scene::Instance& i) {
-        const auto* mesh = s.meshes.find(i.mesh);
-        instanced += mesh && mesh->data ? mesh->data->triangles.size() : 0;
-        emitters += emissions.shines(i);
-    });
+    s.instances.each([&](auto, const scene::Instance& i) { emitters += emissions.shines(i); });
     std::map<std::string, int> types;
     nlohmann::json missing = nlohmann::json::array();
     s.materials.each([&](auto, const scene::Material& m) {
@@ -65,8 +54,8 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"objects", s.instances.live()},
             {"groups", s.groups.live()},
             {"meshes", s.meshes.live()},
-            {"triangles", triangles},
-            {"triangles_instanced", instanced},
+            {"triangles", counted.triangles},
+            {"triangles_instanced", counted.instanced},
             {"materials", types},
             {"materials_without_plugin", missing},
             {"textures", s.textures.live()},
@@ -79,7 +68,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"film", {{"width", film.width}, {"height", film.height}, {"exposure", film.exposure}}},
             {"max_depth", s.settings.value.max_depth},
             {"samples", s.settings.value.samples},
-            {"memory_bytes", {{"geometry", geometry}, {"pixels", pixels}}},
+            {"memory_bytes", {{"geometry", counted.geometry_bytes}, {"pixels", counted.pixel_bytes}}},
             {"missing", placeholders},
             {"report", report},
             {"report_counts",

@@ -196,6 +196,17 @@ bool is_gizmo(const PanelContext& e) {
     return e.view.gizmo == mode;
 }
 
+// Shows that layer, or the picture again.
+template <const std::string_view& layer>
+void show_layer(Editor& e) {
+    e.view.display.layer = e.view.display.layer == layer ? view::picture_layer : layer;
+}
+template <const std::string_view& layer>
+bool is_layer(const PanelContext& e) {
+    return e.view.display.layer == layer;
+}
+constexpr std::string_view objects_layer = "object_id", materials_layer = "material_id"; // of render/film_layers.hpp
+
 // In menu order. Keys as in Unity and Maya; the second ones as in Blender.
 constexpr auto actions = std::to_array<Action>({
     {"file.new", "New", ImGuiMod_Ctrl | ImGuiKey_N, 0, "An empty studio: a floor, a neutral sky, a camera", nullptr,
@@ -242,6 +253,9 @@ constexpr auto actions = std::to_array<Action>({
      "A click then selects single objects of the group again",
      [](const PanelContext& e) { return bool(group_of_selection(e)); },
      [](Editor& e) { ungroup(e, group_of_selection(e)); }},
+    {"edit.find", "Find anything...", ImGuiMod_Ctrl | ImGuiKey_P, 0,
+     "Any action, panel, object, group, light, material or camera by a part of its name", nullptr,
+     [](Editor& e) { e.panel_state->palette.asked = true; }},
     {"edit.drop", "Drop to floor", ImGuiKey_End, 0, "Lowers the selected objects onto the surface below", has_objects,
      drop_to_floor},
     {"edit.arrange", "Arrange...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_A, 0,
@@ -264,9 +278,14 @@ constexpr auto actions = std::to_array<Action>({
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0,
-     "Clear the selection; leave the entered group; first close the help, or remove the array that is being made",
-     [](const PanelContext& e) { return e.panel_open("Help") || has_selection(e) || e.selection.entered(); },
+     "Clear the selection; leave the entered group; first close the help, end measuring, or remove the array that is "
+     "being "
+     "made",
+     [](const PanelContext& e) {
+         return e.panel_open("Help") || e.viewport.measurement.on || has_selection(e) || e.selection.entered();
+     },
      [](Editor& e) {
+         if (e.viewport.measurement.on) return void(e.viewport.measurement = {});
          if (e.panel_open("Help")) return e.open_panel("Help", false);
          if (cancel_array(e)) return;
          e.selection.clear();
@@ -350,6 +369,30 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.view.show_panels; }},
     {"view.reset_layout", "Reset layout", 0, 0, "Restores the initial layout of the panels", nullptr,
      [](Editor& e) { e.reset_layout(); }},
+    {"show.picture", "Picture", ImGuiMod_Alt | ImGuiKey_1, 0, "The path-traced picture", has_scene,
+     show_layer<view::picture_layer>, is_layer<view::picture_layer>},
+    {"show.clay", "Clay", ImGuiMod_Alt | ImGuiKey_2, 0, "The shape of things alone; nothing is traced meanwhile",
+     has_scene, show_layer<view::clay_layer>, is_layer<view::clay_layer>},
+    {"show.wires", "Wireframe", ImGuiMod_Alt | ImGuiKey_3, 0, "The edges of all triangles that are not behind others",
+     has_scene, show_layer<view::wire_layer>, is_layer<view::wire_layer>},
+    {"show.uv", "UV checker", ImGuiMod_Alt | ImGuiKey_4, 0, "Texture coordinates as chequers", has_scene,
+     show_layer<view::uv_layer>, is_layer<view::uv_layer>},
+    {"show.objects", "Object colours", ImGuiMod_Alt | ImGuiKey_5, 0, "Each object in a colour of its own", has_scene,
+     show_layer<objects_layer>, is_layer<objects_layer>},
+    {"show.materials", "Material colours", ImGuiMod_Alt | ImGuiKey_6, 0, "Each material in a colour of its own",
+     has_scene, show_layer<materials_layer>, is_layer<materials_layer>},
+    {"show.samples", "Samples per pixel", ImGuiMod_Alt | ImGuiKey_7, 0, "Where adaptive sampling works most", has_scene,
+     show_layer<view::samples_layer>, is_layer<view::samples_layer>},
+    {"show.error", "Error", ImGuiMod_Alt | ImGuiKey_8, 0, "The estimated relative error of each pixel", has_scene,
+     show_layer<view::error_layer>, is_layer<view::error_layer>},
+    {"show.grid", "Grid", ImGuiKey_G, ImGuiMod_Shift | ImGuiKey_G, "A grid on the floor, behind what stands before it",
+     nullptr, [](Editor& e) { e.view.show_grid = !e.view.show_grid; },
+     [](const PanelContext& e) { return e.view.show_grid; }},
+    {"show.axes", "Axes", 0, 0, "The axes in the picture's corner; a click looks along one", nullptr,
+     [](Editor& e) { e.view.show_axes = !e.view.show_axes; }, [](const PanelContext& e) { return e.view.show_axes; }},
+    {"show.measure", "Measure", ImGuiKey_M, 0, "The distance between two points on surfaces, by two clicks", has_scene,
+     [](Editor& e) { e.viewport.measurement = {.on = !e.viewport.measurement.on}; },
+     [](const PanelContext& e) { return e.viewport.measurement.on; }},
     {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0, "All shortcuts, and how to navigate",
      nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
      [](const PanelContext& e) { return e.panel_open("Help"); }},

@@ -8,6 +8,7 @@
 #include "fonts.hpp"
 #include "layout.hpp"
 #include "opening.hpp"
+#include "palette.hpp"
 #include "panels/panels.hpp"
 #include "panels/plugin_panels.hpp"
 #include "panels/state.hpp"
@@ -117,6 +118,7 @@ void Editor::frame(const std::vector<int>* keys) {
     follow_convergence(*this, *this);
     run_shortcuts(*this, keys);
     draw_panels();
+    draw_palette(*this);
     files_->jobs.update(*this);
     draw_modals();
     // A gesture ends when nothing is held any more and the sky of its last step is complete.
@@ -293,7 +295,8 @@ void Editor::refresh_picture() {
                        .samples = view.samples ? view.samples : settings.samples,
                        .seconds = view.seconds,
                        .error = view.error,
-                       .paused = files_->jobs.picture_paused()};
+                       .paused = files_->jobs.picture_paused(),
+                       .look = view::look_of(view.display.layer)};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
     scene::Scene shown = scene();
@@ -311,6 +314,7 @@ void Editor::refresh_picture() {
                                                                  .document = document_,
                                                                  .variant = wanted.original ? 1u : 0u,
                                                                  .paused = wanted.paused,
+                                                                 .look = wanted.look,
                                                                  .samples = wanted.samples,
                                                                  .seconds = wanted.seconds,
                                                                  .error = wanted.error});

@@ -75,6 +75,7 @@ class Editor final : public PanelContext {
         std::uint32_t samples = 0;
         double seconds = 0, error = 0;
         bool paused = false;
+        std::optional<render::ClayLook> look;
         bool operator==(const Shown&) const = default;
     } asked_;
     struct Latency { // the latest of each [ms]

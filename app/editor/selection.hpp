@@ -16,7 +16,6 @@ namespace restage::editor {
 using InstanceId = scene::Id<scene::Instance>;
 using GroupId = scene::Id<scene::Group>;
 using query::instances_in;
-using query::is_within;
 using query::Whole;
 
 class Selection {

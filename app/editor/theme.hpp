@@ -21,6 +21,9 @@ inline constexpr ImVec4 good{0.45f, 0.78f, 0.47f, 1};
 inline constexpr ImVec4 warning{0.95f, 0.76f, 0.30f, 1};
 inline constexpr ImVec4 error{0.95f, 0.42f, 0.38f, 1};
 inline constexpr ImVec4 dim{0.60f, 0.62f, 0.66f, 1};
+inline constexpr ImVec4 axes[3] = {
+    {0.93f, 0.40f, 0.40f, 1}, {0.55f, 0.80f, 0.38f, 1}, {0.42f, 0.64f, 0.98f, 1}}; // x y z
+inline constexpr ImVec4 over_picture{0.063f, 0.063f, 0.071f, 0.8f}; // ground of text there
 } // namespace colors
 
 } // namespace restage::editor

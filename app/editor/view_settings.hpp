@@ -16,6 +16,8 @@ struct ViewSettings {
     bool denoise = true;
     bool show_overlays = true; // outlines, gizmo, names
     bool show_panels = true; // Tab
+    bool show_grid = false; // on the floor
+    bool show_axes = true; // in the picture's corner
     bool inspect_pixels = false; // values under the mouse
     float resolution = 1; // picture pixels per screen pixel
     GizmoMode gizmo = GizmoMode::move;

@@ -52,8 +52,9 @@ void Viewport::draw(PanelContext& e) {
     GizmoState gizmo;
     if (e.view.show_overlays && picture_.ready()) {
         if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
+        draw_grid(e);
         draw_overlays(e);
-        gizmo = draw_gizmo(e, corner, size);
+        if (!measurement.on) gizmo = draw_gizmo(e, corner, size);
         if (cone_held_) gizmo.wants_mouse = true;
     }
     // Not a button: ImGuizmo ignores clicks while an item is hovered, or was a frame ago.
@@ -61,6 +62,7 @@ void Viewport::draw(PanelContext& e) {
     ImGui::Dummy(size);
     e.mark("picture");
     accept_asset(e);
+    draw_axes(e);
     const bool over = (gizmo.knob || (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())) &&
                       ImGui::IsMouseHoveringRect(corner, end) && !cancelled_;
     if (cancelled_ && !ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::IsAnyMouseDown()) cancelled_ = false;
@@ -74,6 +76,7 @@ void Viewport::draw(PanelContext& e) {
     inspect_pixel(e, over);
     // The scene as it was opened, while O is held.
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
+    draw_layer_note(e);
     draw_status(e);
     draw_progress(e);
     draw_darkness(e);
@@ -108,12 +111,13 @@ void Viewport::update_textures(PanelContext& e) {
     }
     view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
+    if (view::look_of(settings.layer) && !frame->look) settings.layer = view::picture_layer; // until it is there
     if (frame->clay && settings.layer == view::picture_layer) settings = {};
     const auto same = [](const view::DisplaySettings& a, const view::DisplaySettings& b) {
         return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
     };
     if (frame != drawn_ || !same(settings, drawn_settings_)) {
-        view::to_display(frame->image, settings, pixels_);
+        scale_ = view::to_display(frame->image, settings, pixels_, frame->counts);
         picture_.set(frame->image.width, frame->image.height, pixels_);
         drawn_ = frame;
         drawn_settings_ = settings;
@@ -195,6 +199,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
     const bool free = over && !gizmo.wants_mouse && navigation_ == Navigation::none;
     if (run_pick_tool(e, over && navigation_ == Navigation::none)) return;
+    if (run_measuring(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {

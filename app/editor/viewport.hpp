@@ -5,6 +5,7 @@
 
 #include "drag.hpp"
 #include "gizmo.hpp"
+#include "measure_tool.hpp"
 #include "selection.hpp"
 #include "texture.hpp"
 #include "view/display.hpp"
@@ -27,6 +28,7 @@ class Viewport {
     // The picture's rectangle on screen, of the last frame.
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
+    Measurement measurement;
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object visible there in the shown picture; none outside.
@@ -48,6 +50,10 @@ class Viewport {
         PanelContext& editor); // without a surface: their marks, and the selected spot's cone with its handle
     void draw_cone(PanelContext& editor, scene::Id<scene::Light> id);
     scene::Id<scene::Light> light_at(const PanelContext& editor, ImVec2 screen) const; // whose mark is there
+    void draw_grid(PanelContext& editor); // on the floor
+    void draw_axes(PanelContext& editor); // in the corner: a click looks along one
+    void draw_layer_note(PanelContext& editor); // what is displayed if it is not the picture, and the way back
+    bool run_measuring(PanelContext& editor, bool over); // true while the tool takes clicks
     void draw_status(PanelContext& editor);
     void draw_progress(PanelContext& editor); // over the picture, while a scene is opened and prepared
     void draw_darkness(PanelContext& editor); // over a scene without light
@@ -67,6 +73,9 @@ class Viewport {
     Texture picture_, outline_;
     std::shared_ptr<const view::Frame> drawn_; // contents of picture_
     view::DisplaySettings drawn_settings_;
+    view::Scale scale_; // of its colours
+    scene::Bounds world_; // of the scene, for the grid
+    scene::Version world_of_ = ~scene::Version(0);
     std::size_t most_compiling_ = 0; // shaders, since the scene was opened
     struct OutlineKey {
         const view::Frame* frame = nullptr;

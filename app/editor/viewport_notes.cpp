@@ -85,11 +85,11 @@ void Viewport::draw_toolbar(PanelContext& e) {
         if (choice.name == e.view.display.layer) layer = int(layers.size());
         layers.push_back(choice.label);
     }
-    if (combo(
-            "##layer", layer, layers, 96,
-            "The displayed layer: the picture, the denoiser's guides (surface colours, normals, distance), objects and "
-            "materials by colour, or the estimated relative error (dark 0.1 %, white 100 %)",
-            "toolbar.layer"))
+    if (combo("##layer", layer, layers, 96,
+              "The displayed layer: the picture, first hits (clay, triangles, texture coordinates), the denoiser's "
+              "guides, "
+              "objects and materials by colour, samples, or the estimated error. A note in the picture explains it",
+              "toolbar.layer"))
         e.view.display.layer = view::layer_choices()[std::size_t(layer)].name;
     next(84 * scale);
     ImGui::SetNextItemWidth(84 * scale);
@@ -162,7 +162,7 @@ void Viewport::draw_progress(PanelContext& e) {
     const view::ViewStatus status = e.live().status();
     const bool opening = e.opening().running();
     const bool waits = !opening && e.scene().instances.live() > 0 && status.state != view::ViewState::failed &&
-                       (!drawn_ || drawn_->clay);
+                       (!drawn_ || (drawn_->clay && !drawn_->look));
     if (!opening && !waits) {
         most_compiling_ = 0;
         return;

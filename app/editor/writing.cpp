@@ -133,10 +133,10 @@ std::optional<view::Picture> live_picture(const PanelContext& e) {
 }
 
 // The picture on screen, eight bits per channel.
-Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
-                           const view::DisplaySettings& settings) {
+Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image, const view::DisplaySettings& settings,
+                           const std::vector<std::uint32_t>& counts) {
     std::vector<std::uint32_t> rgba;
-    view::to_display(image, settings, rgba);
+    view::to_display(image, settings, rgba, counts);
     scene::PixelData pixels{.width = image.width, .height = image.height, .channels = 3, .values = {}};
     pixels.values.reserve(rgba.size() * 3);
     for (const std::uint32_t p : rgba)
@@ -264,14 +264,16 @@ void save_image_dialog(PanelContext& e) {
                                 const bool seen = state->as_seen && place.extension() == ".png";
                                 if (seen && shot->denoised && settings.layer == view::picture_layer)
                                     shot->film.color = *shot->denoised;
+                                const auto shown = ed.shown_frame();
+                                if (seen && shown && shown->look) shot->film = shown->image;
                                 ed.files().last_picture = place;
                                 ed.files().jobs.start(
                                     {.title = "Writing " + place.filename().string()},
-                                    [place, shot = std::move(*shot), settings,
+                                    [place, shot = std::move(*shot), settings, counts = ed.live().frame()->counts,
                                      seen](BackgroundJob&) -> std::function<void(PanelContext&)> {
                                         auto written = view::check_picture_path(place.string());
                                         if (written && seen)
-                                            written = write_as_seen(place, shot.film, settings);
+                                            written = write_as_seen(place, shot.film, settings, counts);
                                         else if (written)
                                             written = view::write_picture(place.string(), shot, {});
                                         const std::string message =

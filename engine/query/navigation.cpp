@@ -97,6 +97,26 @@ void frame(scene::Camera& camera, const scene::Bounds& bounds, double aspect) {
     camera.camera_to_world[3] = glm::dvec4(bounds.center() - axis(camera, 2) * distance, 1);
 }
 
+void look_along(scene::Camera& camera, const glm::dvec3& pivot, const glm::dvec3& from, const glm::dvec3& up) {
+    const glm::dvec3 forward = -from, was = axis(camera, 2) + axis(camera, 1);
+    glm::dvec3 top = up;
+    if (std::abs(glm::dot(forward, up)) > 0.999) {
+        int best = -1; // the axis across the view that is nearest to where the camera looked
+        for (int i = 0; i < 3; ++i)
+            if (std::abs(forward[i]) < 0.5 && (best < 0 || std::abs(was[i]) > std::abs(was[best]))) best = i;
+        top = glm::dvec3(0);
+        top[best] = was[best] < 0 ? -1 : 1;
+    }
+    glm::dmat4& m = camera.camera_to_world;
+    const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;
+    const double distance = std::max(glm::length(position(camera) - pivot), 1e-6);
+    const glm::dvec3 right = glm::normalize(glm::cross(top, forward)) * (mirrored ? -1.0 : 1.0);
+    const glm::dvec3 axes[] = {right, glm::normalize(top - forward * glm::dot(top, forward)), forward};
+    for (int i = 0; i < 3; ++i)
+        m[i] = glm::dvec4(axes[i] * glm::length(glm::dvec3(m[i])), 0);
+    m[3] = glm::dvec4(pivot + from * distance, 1);
+}
+
 ViewRay view_ray(const scene::Camera& camera, glm::dvec2 film, double aspect) {
     const glm::dvec4 window = film_window(camera, aspect);
     glm::dvec3 from(0), local(glm::mix(window.x, window.y, film.x), glm::mix(window.w, window.z, film.y), 1);

@@ -30,6 +30,10 @@ void dolly(scene::Camera&, const glm::dvec3& towards, double part);
 // x and y axes are fitted; a spherical one goes to the centre.
 void frame(scene::Camera&, const scene::Bounds&, double aspect);
 
+// Looks at the pivot from this side (`from`: unit, away from it), as far from it as now. `up` stays up; along it, what
+// was in front is.
+void look_along(scene::Camera&, const glm::dvec3& pivot, const glm::dvec3& from, const glm::dvec3& up);
+
 // The pinhole ray through a point of the film: (0,0) top left, (1,1) bottom right. `direction` has z = 1 in camera
 // space, so a camera-space depth times it is a displacement; for spherical cameras it has length 1 there.
 struct ViewRay {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/wholes.hpp"
 
+#include "scene/edits_groups.hpp"
+
 #include <algorithm>
 
 namespace restage::query {
@@ -8,17 +10,10 @@ namespace restage::query {
 using GroupId = scene::Id<scene::Group>;
 using InstanceId = scene::Id<scene::Instance>;
 
-bool is_within(const scene::Scene& scene, GroupId inner, GroupId outer) {
-    for (const scene::Group* group = scene.groups.find(inner); group;
-         inner = group->parent, group = scene.groups.find(inner))
-        if (inner == outer) return true;
-    return false;
-}
-
 std::vector<InstanceId> instances_in(const scene::Scene& scene, GroupId group) {
     std::vector<InstanceId> found;
     scene.instances.each([&](InstanceId id, const scene::Instance& instance) {
-        if (is_within(scene, instance.group, group)) found.push_back(id);
+        if (scene::is_in_group(scene, instance.group, group)) found.push_back(id);
     });
     return found;
 }

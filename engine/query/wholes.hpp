@@ -21,6 +21,5 @@ std::vector<scene::Id<scene::Instance>> members_of(const scene::Scene& scene, co
 
 // All objects in a group and the groups within it.
 std::vector<scene::Id<scene::Instance>> instances_in(const scene::Scene& scene, scene::Id<scene::Group> group);
-bool is_within(const scene::Scene& scene, scene::Id<scene::Group> inner, scene::Id<scene::Group> outer);
 
 } // namespace restage::query

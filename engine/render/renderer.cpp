@@ -89,7 +89,7 @@ Result<void> Renderer::revive(const scene::Scene& scene) {
     return sync(scene);
 }
 
-Result<FilmImage> Renderer::clay(glm::uvec2 size) {
+Result<FilmImage> Renderer::clay(glm::uvec2 size, ClayLook look) {
     const EmbreeScene* embree = tracer_->embree();
     if (!embree && !clay_scene_) {
         RESTAGE_TRY(clay_scene_, EmbreeScene::create(jobs_.threads(), {.copies = true}));
@@ -104,7 +104,7 @@ Result<FilmImage> Renderer::clay(glm::uvec2 size) {
         all.meshes.erase(twice.begin(), twice.end());
         RESTAGE_CHECK(clay_scene_->update(*gpu_scene_, all));
     }
-    return clay_picture(*gpu_scene_, embree ? *embree : *clay_scene_, jobs_, size);
+    return clay_picture(*gpu_scene_, embree ? *embree : *clay_scene_, jobs_, size, look);
 }
 
 FilmImage Renderer::image() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/adaptive.hpp"
+#include "render/clay_look.hpp"
 #include "render/embree_scene.hpp"
 #include "render/renderer_options.hpp"
 #include "render/tracer.hpp"
@@ -46,7 +47,7 @@ class Renderer {
 
     // A picture that needs no shader, of the last sync(); see clay.hpp. `size` in pixels. The first of a scene builds
     // what it needs if the tracer does not use Embree; forget_clay() frees that.
-    Result<FilmImage> clay(glm::uvec2 size);
+    Result<FilmImage> clay(glm::uvec2 size, ClayLook look = ClayLook::clay);
     void forget_clay() { clay_scene_.reset(); }
 
     // What workers are compiling; nullopt: the picture has (or, before trace() has begun, may have) no stand-ins.

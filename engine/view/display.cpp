@@ -51,16 +51,6 @@ std::uint32_t id_color(std::uint32_t id) {
     return pack(64 + (h >> 24) * 3 / 4, 64 + (h >> 16 & 255) * 3 / 4, 64 + (h >> 8 & 255) * 3 / 4);
 }
 
-// Black, blue, red, yellow, white for 0..1.
-std::uint32_t heat(float x) {
-    static constexpr std::array<glm::vec3, 5> stops{
-        glm::vec3(0), glm::vec3(0.1f, 0.1f, 0.6f), glm::vec3(0.8f, 0.1f, 0.2f), glm::vec3(1, 0.8f, 0.1f), glm::vec3(1)};
-    const float s = std::clamp(x, 0.f, 1.f) * 4;
-    const auto i = std::min(std::size_t(s), std::size_t(3));
-    const glm::vec3 c = glm::mix(stops[i], stops[i + 1], s - float(i)) * 255.f;
-    return pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
-}
-
 using render::LayerLook;
 
 void show_color(std::span<const glm::vec3> colors, const Curve& tone, float scale, std::uint32_t* out) {
@@ -77,42 +67,103 @@ void show_direction(std::span<const glm::vec3> directions, std::uint32_t* out) {
     }
 }
 
-void show_distance(std::span<const float> distances, std::uint32_t* out) { // near is bright
+Scale show_distance(std::span<const float> distances, std::uint32_t* out) { // near is bright
     float farthest = 0;
     for (const float z : distances)
         if (std::isfinite(z)) farthest = std::max(farthest, z);
     for (const float z : distances)
-        *out++ = z > 0 ? heat(1 - z / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
+        *out++ = z > 0 ? scale_color(1 - z / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
+    return {.dark = farthest / 0.95f, .bright = 0, .unit = " away"};
 }
 
 // Relative standard error of luminance, logarithmic from 1e-3 to 1.
-void show_error(const render::FilmImage& image, std::uint32_t* out) {
+Scale show_error(const render::FilmImage& image, std::uint32_t* out) {
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const float mean = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f));
         const float error = std::sqrt(std::max(image.luminance_variance[i], 0.f)) / (std::abs(mean) + 0.01f);
-        out[i] = heat(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+        out[i] = scale_color(std::log10(std::max(error, 1e-3f)) / 3 + 1);
+    }
+    return {.dark = 0.1f, .bright = 100, .logarithmic = true, .unit = " %"};
+}
+
+Scale show_samples(const render::FilmImage& image, std::span<const std::uint32_t> counts, std::uint32_t* out) {
+    const std::size_t n = image.pixels();
+    std::uint32_t most = image.samples;
+    if (counts.size() == n) most = std::max(*std::ranges::max_element(counts), 1u);
+    for (std::size_t i = 0; i < n; ++i)
+        out[i] = scale_color(float(counts.size() == n ? counts[i] : most) / float(std::max(most, 1u)));
+    return {.dark = 0, .bright = float(most), .unit = " samples"};
+}
+
+const char* about(LayerLook look) {
+    switch (look) {
+        case LayerLook::light:
+            return "The path-traced picture";
+        case LayerLook::reflectance:
+            return "Surface colours, without light";
+        case LayerLook::direction:
+            return "Where surfaces face: x red, y green, z blue";
+        case LayerLook::distance:
+            return "Distance from the camera";
+        default:
+            return "A colour of its own for each";
     }
 }
 
 } // namespace
 
+static_assert(clay_layer == "clay" && wire_layer == "wires" && uv_layer == "uv" && samples_layer == "samples" &&
+              error_layer == "error"); // as below, where they are C strings
+
 std::span<const LayerChoice> layer_choices() {
     static const std::vector<LayerChoice> choices = [] {
         std::vector<LayerChoice> all;
         render::each_film_layer([&](const auto& layer) {
-            if (layer.look != LayerLook::hidden) all.push_back({layer.name, layer.label});
+            if (layer.look != LayerLook::hidden) all.push_back({layer.name, layer.label, about(layer.look)});
+            if (layer.look == LayerLook::light) {
+                all.push_back({"clay", "Clay", "The shape of things alone: nothing is traced meanwhile"});
+                all.push_back({"wires", "Wireframe", "Edges of triangles; where these are small, fainter"});
+                all.push_back({"uv", "UV checker",
+                               "Texture coordinates: chequers of 1/8, redder with u, greener with v; blue = none"});
+            }
         });
-        static constexpr const char* name = "error";
-        static_assert(name == error_layer);
-        all.push_back({name, "Error"});
+        all.push_back({"samples", "Samples", "How many samples each pixel got"});
+        all.push_back({"error", "Error", "Estimated relative error of each pixel"});
         return all;
     }();
     return choices;
 }
 
-void to_display(const render::FilmImage& image, const DisplaySettings& settings, std::vector<std::uint32_t>& rgba) {
+const LayerChoice& layer_choice(std::string_view name) {
+    const auto choices = layer_choices();
+    const auto found = std::ranges::find_if(choices, [&](const LayerChoice& choice) { return name == choice.name; });
+    return found == choices.end() ? choices.front() : *found;
+}
+
+std::optional<render::ClayLook> look_of(std::string_view layer) {
+    if (layer == clay_layer) return render::ClayLook::clay;
+    if (layer == wire_layer) return render::ClayLook::wires;
+    if (layer == uv_layer) return render::ClayLook::uv;
+    return std::nullopt;
+}
+
+// Black, blue, red, yellow, white.
+std::uint32_t scale_color(float x) {
+    static constexpr std::array<glm::vec3, 5> stops{
+        glm::vec3(0), glm::vec3(0.1f, 0.1f, 0.6f), glm::vec3(0.8f, 0.1f, 0.2f), glm::vec3(1, 0.8f, 0.1f), glm::vec3(1)};
+    const float s = std::clamp(x, 0.f, 1.f) * 4;
+    const auto i = std::min(std::size_t(s), std::size_t(3));
+    const glm::vec3 c = glm::mix(stops[i], stops[i + 1], s - float(i)) * 255.f;
+    return pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
+}
+
+Scale to_display(const render::FilmImage& image, const DisplaySettings& settings, std::vector<std::uint32_t>& rgba,
+                 std::span<const std::uint32_t> counts) {
     rgba.resize(image.pixels());
     if (settings.layer == error_layer) return show_error(image, rgba.data());
+    if (settings.layer == samples_layer) return show_samples(image, counts, rgba.data());
+    Scale scale;
+    if (look_of(settings.layer)) show_color(image.color, curve(ToneCurve::srgb), 1, rgba.data());
     render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
         if (settings.layer != layer.name) return;
         const std::vector<V>& values = image.*layer.values;
@@ -124,11 +175,12 @@ void to_display(const render::FilmImage& image, const DisplaySettings& settings,
             else
                 show_color(values, curve(ToneCurve::srgb), 1, rgba.data());
         } else if constexpr (std::is_same_v<V, float>) {
-            show_distance(values, rgba.data());
+            scale = show_distance(values, rgba.data());
         } else if constexpr (std::is_same_v<V, std::uint32_t>) {
             std::ranges::transform(values, rgba.begin(), id_color);
         }
     });
+    return scale;
 }
 
 bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> marks, int width,

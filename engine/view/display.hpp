@@ -3,10 +3,12 @@
 // guides. The rendered data is unchanged.
 #pragma once
 
+#include "render/clay_look.hpp"
 #include "render/film_layers.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,22 +20,39 @@ enum class ToneCurve {
     filmic, // soft highlights: ACES fitted curve (Narkowicz 2016), per channel
 };
 
-// The displayable data of a film: its layers (render/film_layers.hpp), by name, and the relative error.
+// What can be displayed: a film's layers (render/film_layers.hpp), by name, looks of first hits (render/clay_look.hpp),
+// the relative error and the numbers of samples.
 struct LayerChoice {
     const char *name, *label;
+    const char* about; // what it shows, one sentence
 };
 std::span<const LayerChoice> layer_choices();
-inline constexpr std::string_view picture_layer = "color", error_layer = "error";
+const LayerChoice& layer_choice(std::string_view name); // the picture's if there is no such layer
+inline constexpr std::string_view picture_layer = "color", clay_layer = "clay", wire_layer = "wires", uv_layer = "uv",
+                                  samples_layer = "samples", error_layer = "error";
+// Of the layers that show first hits; none for others.
+std::optional<render::ClayLook> look_of(std::string_view layer);
 
 struct DisplaySettings {
     std::string_view layer = picture_layer; // one of the choices
     ToneCurve tone = ToneCurve::srgb;
     float exposure = 0; // [stops]
-    float scale = 1;    // of the scene's film
+    float scale = 1; // of the scene's film
 };
 
-// width * height RGBA, row 0 on top. 1280x720 takes about 5 ms on one thread. [any]
-void to_display(const render::FilmImage&, const DisplaySettings&, std::vector<std::uint32_t>& rgba);
+// The numbers that the ends of the colour scale stand for: distances, samples or the relative error (on a logarithmic
+// scale). Equal for layers without a scale.
+struct Scale {
+    float dark = 0, bright = 0;
+    bool logarithmic = false;
+    const char* unit = "";
+};
+// width * height RGBA, row 0 on top. `counts`: samples of each pixel, for that layer; none = all as many. 1280x720
+// takes about 5 ms on one thread. [any]
+Scale to_display(const render::FilmImage&, const DisplaySettings&, std::vector<std::uint32_t>& rgba,
+                 std::span<const std::uint32_t> counts = {});
+// The colour of 0..1 on such a scale.
+std::uint32_t scale_color(float x);
 
 // Outlines, `width` pixels thick, of marked objects: marks[instance id] is 0 (not; ids beyond the end too), 1 or 2
 // (wins over 1), colors[mark - 1] the RGBA; else 0. False, and `rgba` empty, if nothing marked is visible. [any]

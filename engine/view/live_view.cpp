@@ -178,6 +178,7 @@ struct LiveView::Impl {
         const glm::uvec2 size = glm::max(request.options.size, glm::uvec2(1));
         const bool another_document = work.document != request.options.document;
         const bool another_scene = another_document || work.variant != request.options.variant;
+        if (request.options.look) return show_look(work, size, another_document, another_scene);
         if (!another_scene && work.size == size && work.shown) {
             const std::uint32_t before = work.renderer->samples();
             if (!sync(work)) return;
@@ -202,24 +203,50 @@ struct LiveView::Impl {
             if (pixels / (d * d) <= rate * coarse_budget) break;
         }
         if (another_document) work.pictured = false;
-        if (another_scene) {
-            work.document = request.options.document;
-            work.variant = request.options.variant;
-            work.renderer->forget_scene();
-            set_state(ViewState::preparing);
-        }
+        if (another_scene) change_scene(work);
+        if (work.pictured) work.renderer->forget_clay(); // of a look
         if (!prepare(work)) return;
-        if (!work.pictured) show_clay(work);
+        if (!work.pictured) show_clay(work, clay_divider(work), {});
         pass(work, true);
     }
 
-    // An immediate preview of the geometry; optional.
-    void show_clay(Work& work) {
+    void change_scene(Work& work) {
+        work.document = work.request->options.document;
+        work.variant = work.request->options.variant;
+        work.renderer->forget_scene();
+        set_state(ViewState::preparing);
+    }
+
+    // First hits, coarse and then at full resolution. The film keeps its samples unless the scene changed.
+    void show_look(Work& work, glm::uvec2 size, bool another_document, bool another_scene) {
+        if (another_document) work.pictured = false;
+        if (another_scene) change_scene(work);
+        if (work.size != size || another_scene) work.shown = 0; // the picture starts again after this
+        work.size = size;
+        if (!sync(work)) return;
+        const std::uint32_t coarse = clay_divider(work);
+        show_clay(work, coarse, work.request->options.look);
+        bool newer = false;
+        {
+            std::lock_guard lock(mutex);
+            newer = stop || mail || new_options;
+        }
+        if (coarse > 1 && !newer) show_clay(work, 1, work.request->options.look);
+        set_state(ViewState::done);
+    }
+
+    static std::uint32_t clay_divider(const Work& work) {
         const double pixels = double(work.size.x) * work.size.y;
         std::uint32_t divider = 1;
         while (pixels / (divider * divider) > clay_pixels)
             ++divider;
-        auto image = work.renderer->clay(glm::max(work.size / divider, glm::uvec2(1)));
+        return divider;
+    }
+
+    // An immediate preview of the geometry, which is optional; or the look that was asked for.
+    void show_clay(Work& work, std::uint32_t divider, std::optional<render::ClayLook> look) {
+        auto image =
+            work.renderer->clay(glm::max(work.size / divider, glm::uvec2(1)), look.value_or(render::ClayLook::clay));
         if (!image) return log.debug("no preview: " + image.error().message);
         auto frame = std::make_shared<Frame>();
         frame->image = std::move(*image);
@@ -227,6 +254,7 @@ struct LiveView::Impl {
         frame->document = work.document;
         frame->divider = divider;
         frame->clay = true;
+        frame->look = look;
         frame->seconds = seconds_since(work.request->time);
         put(std::move(frame));
         on_news();
@@ -271,8 +299,13 @@ struct LiveView::Impl {
         film.height = size.y;
         film.crop = {0, 1, 0, 1};
         scene.film.version = work.film_version;
+        const auto start = Clock::now();
         auto ready = work.renderer->sync(scene);
         if (!ready && work.renderer->lost()) ready = revive(work);
+        {
+            std::lock_guard lock(mutex);
+            now.update_seconds = seconds_since(start);
+        }
         if (!ready) give_up(work, ready.error());
         return bool(ready);
     }
@@ -353,6 +386,7 @@ struct LiveView::Impl {
             now.samples = renderer.samples();
             now.divider = work.divider;
             now.samples_per_second = work.rate;
+            now.sample_seconds = took;
             now.gpu_bytes = renderer.gpu_scene().bytes();
             now.not_finite = renderer.stats().not_finite;
             say(compiling.value_or(render::CompileProgress{}));
@@ -368,6 +402,9 @@ struct LiveView::Impl {
     void publish(Work& work) {
         auto frame = std::make_shared<Frame>();
         frame->image = work.renderer->image();
+        frame->counts.resize(frame->image.pixels());
+        for (std::size_t i = 0; i < frame->counts.size(); ++i)
+            frame->counts[i] = work.renderer->film()->samples_of(i);
         frame->request = work.request->number;
         frame->document = work.document;
         frame->divider = work.divider;
@@ -410,7 +447,7 @@ std::uint64_t LiveView::show(scene::Scene scene, const ViewOptions& options) {
     {
         std::lock_guard lock(impl_->mutex);
         number = ++impl_->last_number;
-        impl_->pictures.ask(options.document, options.denoise);
+        impl_->pictures.ask(options.document, options.denoise, options.look);
         impl_->mail = Request{std::move(scene), options, number, Clock::now()};
     }
     impl_->wake_render.notify_one();
@@ -445,8 +482,10 @@ std::shared_ptr<const Frame> LiveView::best(bool want_denoised) const {
 ViewStatus LiveView::status() const {
     std::lock_guard lock(impl_->mutex);
     ViewStatus status = impl_->now;
-    const auto& raw = impl_->pictures.raw();
-    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && raw && raw->request == impl_->visible;
+    const bool looks = impl_->pictures.wants_look();
+    const auto newest = looks ? impl_->pictures.of_look() : impl_->pictures.raw();
+    status.current = !impl_->mail && !impl_->new_options && !impl_->taking && newest &&
+                     newest->request == (looks ? impl_->last_number : impl_->visible);
     return status;
 }
 

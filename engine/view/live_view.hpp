@@ -7,6 +7,7 @@
 #pragma once
 
 #include "base/log.hpp"
+#include "render/clay_look.hpp"
 #include "render/film_layers.hpp"
 #include "render/renderer_options.hpp"
 #include "scene/scene.hpp"
@@ -14,7 +15,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace restage::plugin {
 class Registry;
@@ -31,8 +34,11 @@ struct Frame {
     bool denoised = false;
     std::string denoiser; // its type, if `denoised`
     bool clay = false; // first hits only, see render/clay.hpp; colours in [0,1], not to be exposed
+    std::optional<render::ClayLook> look; // of one with `clay` that ViewOptions::look asked for
+    std::vector<std::uint32_t> counts; // samples of each pixel; empty if `clay`
     double seconds = 0; // since that show()
     double relative_error = 1e30; // of the traced picture; render::relative_error
+    double denoise_seconds = 0; // if `denoised`
 };
 
 struct ViewOptions {
@@ -42,6 +48,8 @@ struct ViewOptions {
                                // of the previous one is reused, but its picture stays until there is a new one
     bool denoise = true;
     bool paused = false; // keep the current picture
+    std::optional<render::ClayLook>
+        look; // show first hits: nothing is traced meanwhile, and the picture continues later
     std::uint32_t samples = 0; // stop at this many per pixel; 0 = never
     double seconds = 0; // stop after this time; 0 = never
     double error = 0; // stop at this relative error; 0 = never
@@ -65,6 +73,7 @@ struct ViewStatus {
     std::uint32_t samples = 0, divider = 1; // of the picture in progress
     double samples_per_second = 0; // pixels times samples, measured
     std::size_t gpu_bytes = 0;
+    double update_seconds = 0, sample_seconds = 0; // the last scene's upload, the last sample of every pixel
     std::map<std::string, std::uint64_t> not_finite; // samples dropped, by material type
 };
 

@@ -10,8 +10,9 @@ namespace restage::view {
 class Pictures {
   public:
     // The current request; pictures of other documents are no longer shown.
-    void ask(std::uint64_t document, bool denoise) {
+    void ask(std::uint64_t document, bool denoise, std::optional<render::ClayLook> look = {}) {
         denoise_ = denoise;
+        look_ = look;
         if (document == document_) return;
         document_ = document;
         raw_ = clean_ = clay_ = nullptr;
@@ -27,8 +28,12 @@ class Pictures {
 
     const std::shared_ptr<const Frame>& raw() const { return raw_; }
     const std::shared_ptr<const Frame>& clean() const { return clean_; }
+    // Of first hits, if the current request is for those and there is one.
+    std::shared_ptr<const Frame> of_look() const { return look_ && clay_ && clay_->look == look_ ? clay_ : nullptr; }
+    bool wants_look() const { return look_.has_value(); }
     // The last clean one stays until the next is ready, however old; before the first, clay.
     const std::shared_ptr<const Frame>& best(bool want_denoised) const {
+        if (look_ && clay_ && clay_->look == look_) return clay_;
         const auto& real = want_denoised && denoise_ && missing_.empty() ? clean_ : raw_;
         return real ? real : clay_;
     }
@@ -36,6 +41,7 @@ class Pictures {
   private:
     std::uint64_t document_ = 0;
     bool denoise_ = true;
+    std::optional<render::ClayLook> look_;
     std::string missing_;
     std::shared_ptr<const Frame> raw_, clean_, clay_;
 };

@@ -4,6 +4,7 @@
 #include "base/thread_priority.hpp"
 #include "render/denoise.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace restage::view {
@@ -80,6 +81,7 @@ void ViewDenoiser::run() {
             }
             return host_.wanted(*source);
         };
+        const auto start = std::chrono::steady_clock::now();
         auto color = render::denoise(source->image, *denoiser, plugin::DenoiseQuality::fast, 0, keep_going);
         if (!color && color.error().cancelled()) continue;
         host_.says(color ? "" : color.error().message); // on failure, noisy pictures are shown
@@ -87,6 +89,7 @@ void ViewDenoiser::run() {
         auto frame = std::make_shared<Frame>(*source);
         frame->image.color = std::move(*color);
         frame->denoised = true;
+        frame->denoise_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         frame->denoiser = denoiser->table->type;
         host_.done(std::move(frame));
     }

@@ -355,6 +355,59 @@ def dragging_an_asset(s):
 
 
 @state
+def palette(s):
+    s.start(DEMO)
+    s.editor.key("ctrl+p")
+    s.editor.wait(lambda t: "palette.query" in t["marks"], "the palette")
+    s.editor.type("cha")
+    time.sleep(0.5)
+
+
+def layer(s, key):
+    s.stop()
+    s.start(DEMO)
+    s.editor.key(key)
+    s.editor.wait(lambda t: "layer.back" in t["marks"], "the note")
+    s.rest()
+    time.sleep(1.5)
+
+
+@state
+def wireframe(s):
+    layer(s, "alt+3")
+
+
+@state
+def uv_checker(s):
+    layer(s, "alt+4")
+
+
+@state
+def error_map(s):
+    layer(s, "alt+8")
+
+
+@state
+def grid_and_measure(s):
+    s.stop()
+    s.start(DEMO)
+    s.editor.key("g", "m")
+    for point in (("picture", 0.35, 0.75), ("picture", 0.6, 0.85)):
+        s.editor.move(point)
+        s.editor.click(point)
+    time.sleep(0.5)
+
+
+@state
+def statistics(s):
+    s.stop()
+    s.start(DEMO)
+    s.editor.click("menu.panels")
+    s.editor.click("panels.Statistics")
+    s.tab("Statistics")
+
+
+@state
 def convergence(s):
     s.start(DEMO)
     s.tab("Convergence")

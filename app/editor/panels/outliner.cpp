@@ -7,6 +7,7 @@
 #include "panels.hpp"
 #include "panels/state.hpp"
 #include "scene/edits.hpp"
+#include "scene/edits_groups.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 #include "widgets.hpp"
@@ -16,6 +17,7 @@
 #include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
+#include <functional>
 
 namespace restage::editor {
 
@@ -125,9 +127,33 @@ void instance_menu(SelectContext& e, OutlinerState& state, const Row& row) {
     e.mark("outliner.menu.material");
 }
 
-void drop_target(SelectContext& e, GroupId group) {
+constexpr const char* tree_payload = "restage.objects"; // the selection, and OutlinerState::dragged
+
+// Makes the row a source. `begin` selects what is dragged.
+void drag_source(SelectContext& e, OutlinerState& state, const std::function<void()>& begin) {
+    if (!ImGui::BeginDragDropSource()) return;
+    if (!ImGui::GetDragDropPayload()) begin();
+    ImGui::SetDragDropPayload(tree_payload, "", 1);
+    const std::size_t groups = state.dragged.size(), objects = e.selection.instances().size();
+    if (!state.drop_problem.empty())
+        ImGui::TextColored(colors::error, "%s", state.drop_problem.c_str());
+    else
+        ImGui::Text("%zu %s%s into a group, or below the list out of it", groups ? groups : objects,
+                    groups ? "group" : "object", (groups ? groups : objects) == 1 ? "" : "s");
+    ImGui::EndDragDropSource();
+    state.drop_problem.clear(); // until a target sets it again
+}
+
+void drop_target(SelectContext& e, OutlinerState& state, GroupId group) {
     if (!ImGui::BeginDragDropTarget()) return;
-    if (ImGui::AcceptDragDropPayload("restage.objects")) move_to_group(e, group);
+    const ImGuiPayload* payload = ImGui::GetDragDropPayload();
+    if (payload && payload->IsDataType(tree_payload) &&
+        std::ranges::any_of(state.dragged, [&](GroupId one) { return scene::is_in_group(e.scene(), group, one); })) {
+        state.drop_problem = "A group cannot be moved into itself";
+        ImGui::SetMouseCursor(ImGuiMouseCursor_NotAllowed);
+    } else if (ImGui::AcceptDragDropPayload(tree_payload)) {
+        move_to_group(e, group, state.dragged);
+    }
     ImGui::EndDragDropTarget();
 }
 
@@ -147,14 +173,11 @@ void instance_row(SelectContext& e, OutlinerState& state, const Row& row) {
     }
     if (ImGui::IsItemHovered()) e.hovered = id;
     e.mark("outliner." + instance->name);
-    if (ImGui::BeginDragDropSource()) {
+    drag_source(e, state, [&] {
+        state.dragged.clear();
         if (!e.selection.contains(id)) e.selection.set(ids);
-        ImGui::SetDragDropPayload("restage.objects", "", 1);
-        ImGui::Text("%zu object%s into a group, or below the list out of it", e.selection.instances().size(),
-                    e.selection.instances().size() == 1 ? "" : "s");
-        ImGui::EndDragDropSource();
-    }
-    if (instance->group) drop_target(e, instance->group);
+    });
+    if (instance->group) drop_target(e, state, instance->group);
     if (ImGui::BeginPopupContextItem("row")) {
         instance_menu(e, state, row);
         ImGui::EndPopup();
@@ -196,7 +219,7 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
     ImGui::SameLine(0, 0);
     const bool hidden = state.members[row.id] > 0 && state.hidden[row.id] == state.members[row.id];
     const bool selected =
-        e.selection.active() && is_within(e.scene(), e.scene().instances[e.selection.active()].group, id);
+        e.selection.active() && scene::is_in_group(e.scene(), e.scene().instances[e.selection.active()].group, id);
     if (row_label(group->name, selected, 2, hidden,
                   fmt::format("{} objects. Click: select all of them; double click: rename", state.members[row.id]))) {
         click(e, instances_in(e.scene(), id));
@@ -204,7 +227,13 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, group->name);
     }
     e.mark("outliner.group." + group->name);
-    drop_target(e, id);
+    drag_source(e, state, [&] {
+        state.dragged = dragged_groups(e, id);
+        if (!state.dragged.empty()) return;
+        state.dragged = {id};
+        e.selection.set(instances_in(e.scene(), id));
+    });
+    drop_target(e, state, id);
     if (ImGui::BeginPopupContextItem("group")) {
         if (ImGui::MenuItem("Select")) e.selection.set(instances_in(e.scene(), id));
         if (ImGui::MenuItem("Rename", "F2")) start_renaming(state, row, group->name);
@@ -342,7 +371,9 @@ void draw_outliner(SelectContext& e) {
 
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ImGui::GetStyle().ItemSpacing.x, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, ImVec2(0, 0.5f));
-    if (ImGui::BeginChild("rows", {0, 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
+    const ImGuiPayload* payload = ImGui::GetDragDropPayload();
+    const bool dragging = payload && payload->IsDataType(tree_payload);
+    if (ImGui::BeginChild("rows", {0, dragging ? -ImGui::GetFrameHeight() : 0}, 0, ImGuiWindowFlags_NoNavInputs)) {
         outliner_keys(e, state);
         const float height = ImGui::GetFrameHeight();
         if (e.selection.active() != state.last_active) { // selected elsewhere: scroll to it
@@ -360,11 +391,16 @@ void draw_outliner(SelectContext& e) {
                 draw_row(e, state, state.rows[std::size_t(i)]);
         if (const ImVec2 rest = ImGui::GetContentRegionAvail(); rest.y > 1) { // out of every group
             ImGui::Dummy(rest);
-            drop_target(e, {});
+            drop_target(e, state, {});
             e.mark("outliner.rest");
         }
     }
     ImGui::EndChild();
+    if (dragging) { // the list may fill the panel
+        ImGui::Button("Out of every group", {-FLT_MIN, 0});
+        drop_target(e, state, {});
+        e.mark("outliner.root");
+    }
     ImGui::PopStyleVar(2);
 }
 

@@ -21,7 +21,10 @@ int find_row(const OutlinerState& state, InstanceId id);
 void outliner_keys(SelectContext& editor, OutlinerState& state);
 void start_renaming(OutlinerState& state, const OutlinerState::Row& row, const std::string& name);
 
-void move_to_group(SelectContext& editor, GroupId group); // the selected objects; none = out of their groups
+// The selected objects, and these groups with all they hold; none = out of their groups.
+void move_to_group(SelectContext& editor, GroupId to, const std::vector<GroupId>& groups = {});
+// The outermost groups that are selected whole, if it is one of them; else none: it alone is dragged.
+std::vector<GroupId> dragged_groups(const SelectContext& editor, GroupId group);
 void group_selected(SelectContext& editor);
 void ungroup(EditContext& editor, GroupId group); // its contents move to the parent group
 

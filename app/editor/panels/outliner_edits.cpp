@@ -2,23 +2,37 @@
 // The outliner's edits of groups.
 #include "outliner.hpp"
 #include "scene/edits.hpp"
+#include "scene/edits_groups.hpp"
 #include "scene/merge.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace restage::editor {
 
-void move_to_group(SelectContext& e, GroupId group) {
-    e.edit([ids = e.selection.instances(), group](const scene::Scene& s) {
-        const scene::Group* to = s.groups.find(group);
-        scene::Edit edit{to ? "Move to " + to->name : "Take out of group", {}};
-        for (const InstanceId id : ids) {
-            scene::Instance after = s.instances[id];
-            after.group = group;
-            edit.changes.push_back(scene::Change<scene::Instance>{id, s.instances[id], std::move(after)});
-        }
-        return Result<scene::Edit>(std::move(edit));
+void move_to_group(SelectContext& e, GroupId to, const std::vector<GroupId>& groups) {
+    e.edit([ids = e.selection.instances(), groups, to](const scene::Scene& s) {
+        return scene::reparent(s, ids, groups, to);
     });
+}
+
+std::vector<GroupId> dragged_groups(const SelectContext& e, GroupId group) {
+    const scene::Scene& s = e.scene();
+    std::vector<bool> whole(s.groups.size() + 1, true), used(s.groups.size() + 1, false);
+    s.instances.each([&](InstanceId id, const scene::Instance& instance) {
+        std::size_t steps = 0;
+        for (GroupId at = instance.group; const scene::Group* item = s.groups.find(at); at = item->parent) {
+            used[at.value] = true;
+            if (!e.selection.contains(id)) whole[at.value] = false;
+            if (++steps > s.groups.size()) break;
+        }
+    });
+    std::vector<GroupId> found;
+    s.groups.each([&](GroupId id, const scene::Group& item) {
+        const bool outermost = !s.groups.find(item.parent) || !whole[item.parent.value];
+        if (whole[id.value] && used[id.value] && outermost) found.push_back(id);
+    });
+    return std::ranges::find(found, group) != found.end() ? found : std::vector<GroupId>();
 }
 
 void group_selected(SelectContext& e) {

@@ -25,6 +25,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"Import report", give<draw_import_report>, Dock::bottom, true,
      "What was kept, approximated or dropped on opening"},
     {"Convergence", give<draw_convergence>, Dock::bottom, true, "Estimated error against time and samples"},
+    {"Statistics", give<draw_statistics>, Dock::bottom, false, "What the scene holds, time and memory of the picture"},
     {"Plugins", give<draw_plugins>, Dock::bottom, false,
      "Loaded plugins and their folders, and why others are not loaded"},
     {"Assets", give<draw_assets>, Dock::bottom, true, "Scenes, skies, textures and meshes to add"},

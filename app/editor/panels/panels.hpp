@@ -20,6 +20,7 @@ void draw_arrange(SelectContext& editor);
 void draw_scene_settings(SelectContext& editor, PictureView& picture);
 void draw_import_report(SelectContext& editor);
 void draw_convergence(PanelUi& editor, const PictureView& picture);
+void draw_statistics(DocumentContext& editor, const PictureView& picture);
 void draw_plugins(DocumentContext& editor);
 void draw_log(PanelUi& editor);
 void draw_history(EditContext& editor);

@@ -8,6 +8,8 @@
 #include "finding_things.hpp"
 #include "image_loads.hpp"
 #include "material_balls.hpp"
+#include "palette.hpp"
+#include "scene/statistics.hpp"
 #include "selection.hpp"
 #include "sky_making.hpp"
 
@@ -66,6 +68,13 @@ struct OutlinerState {
     std::string new_name;
     bool focus_name = false;
     InstanceId last_active; // the list scrolls when it changes elsewhere
+    std::vector<GroupId> dragged; // groups that are dragged whole, with the selection
+    std::string drop_problem; // why what is dragged cannot be dropped at the mouse; "" = it can
+};
+
+struct StatisticsState {
+    scene::Version made_for = ~scene::Version(0);
+    scene::Statistics scene;
 };
 
 struct SceneState {
@@ -145,6 +154,8 @@ struct PanelState {
     ConvergenceState convergence;
     PluginState plugins;
     AssetsState assets;
+    PaletteState palette;
+    StatisticsState statistics;
     ImportState importing;
     std::size_t history_seen = 0;
     int history_mib = 0; // while it is typed
