@@ -5,6 +5,7 @@
 #include "assets.hpp"
 #include "check/step.hpp"
 #include "image_loads.hpp"
+#include "library.hpp"
 #include "material_balls.hpp"
 #include "selection.hpp"
 #include "sky_making.hpp"
@@ -120,6 +121,7 @@ struct PanelState {
         skies.stop();
         inspector = {};
         outliner = {};
+        library.trial = {};
         report = {};
         convergence.current = {};
         convergence.previous = {};
@@ -129,6 +131,7 @@ struct PanelState {
 
     ImageLoads loads;
     MaterialBalls balls;
+    LibraryState library;
     SkyMaking skies;
     InspectorState inspector;
     OutlinerState outliner;
