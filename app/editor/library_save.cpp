@@ -64,10 +64,7 @@ void ask_save_preset(EditContext& e, scene::Id<scene::Material> id) {
     auto saving = std::make_shared<Saving>();
     saving->name = material->name;
     saving->categories = categories_of(e);
-    for (const LibraryItem& item : presets_of(e)) // what others of its type are
-        if (saving->category.empty() && item.preset->parts.materials[item.preset->material].type == material->type)
-            saving->category = item.category;
-    if (saving->category.empty()) saving->category = "Other";
+    saving->category = "Other";
     e.show_modal("Save as preset", [saving, id](PanelContext& editor) {
         dialog_width(420);
         ImGui::TextWrapped("The material with its textures, for the panel Materials of every scene.");

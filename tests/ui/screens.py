@@ -322,7 +322,7 @@ def assets(s):
     time.sleep(2)
 
 
-def balls(s, shown=12, seconds=300):
+def balls(s, shown=6, seconds=300):
     """Until the visible presets have their pictures."""
     s.editor.wait(lambda t: sum(m.startswith("materials.ball.") for m in t["marks"]) >= shown, "balls", seconds)
 

@@ -86,7 +86,7 @@ bool type_row(DocumentContext& e, const TypeUse& use, const std::string& current
     const float line = ImGui::GetTextLineHeight(), high = 2.2f * line;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(table.type.c_str());
-    const bool chosen = ImGui::Selectable("##type", current == table.type, 0, {12 * ImGui::GetFontSize(), high});
+    const bool chosen = ImGui::Selectable("##type", current == table.type, 0, {21 * ImGui::GetFontSize(), high});
     ImGui::PopID();
     tip(table.tooltip.c_str());
     e.mark("material.type." + table.type);
