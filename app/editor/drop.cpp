@@ -44,14 +44,6 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 constexpr std::initializer_list<const char*> picture_files = {"png",  "jpg", "jpeg", "tga", "bmp",
                                                               "webp", "hdr", "exr",  "pfm"};
 
-// The target object of a file dropped there; computed from the scene, as the picture may be out of date.
-InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
-    if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
-    const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
-    const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
-    return hits.empty() ? InstanceId{} : hits[0].instance;
-}
-
 const scene::Material* material_of(const DocumentContext& e, InstanceId id) {
     const scene::Instance* instance = e.scene().instances.find(id);
     return instance ? e.scene().materials.find(instance->material) : nullptr;
@@ -149,6 +141,13 @@ void drop_image(PanelContext& e, const fs::path& path, InstanceId on) {
 
 } // namespace
 
+InstanceId target_at(const PanelContext& e, glm::dvec2 film) {
+    if (film.x < 0 || film.y < 0 || film.x >= 1 || film.y >= 1 || e.scene().instances.live() == 0) return {};
+    const query::ViewRay ray = query::view_ray(e.camera(), film, e.film_aspect());
+    const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction);
+    return hits.empty() ? InstanceId{} : hits[0].instance;
+}
+
 void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     const glm::dvec2 film = viewport.film_point(screen);
     const bool over = film.x >= 0 && film.y >= 0 && film.x < 1 && film.y < 1;
@@ -166,6 +165,19 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
             open(path);
             return; // only one of them
         }
+    }
+}
+
+void drop_tip(PanelContext& e, const std::string& text, const std::string& onto, ImVec2 screen) {
+    // Not beyond the window's right edge.
+    const bool right = screen.x > ImGui::GetMainViewport()->GetCenter().x;
+    ImGui::SetNextWindowPos({screen.x + (right ? -8.f : 16.f), screen.y + 12}, ImGuiCond_Always,
+                            {right ? 1.f : 0.f, 0});
+    if (ImGui::BeginTooltip()) {
+        ImGui::TextUnformatted(text.c_str());
+        e.mark("drop.preview");
+        if (!onto.empty()) e.mark("drop.onto." + onto);
+        ImGui::EndTooltip();
     }
 }
 
@@ -191,16 +203,7 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     } else {
         text = name + " is opened";
     }
-    // Replaces the source's tooltip, see accept_asset(); not beyond the window's right edge.
-    const bool right = screen.x > ImGui::GetMainViewport()->GetCenter().x;
-    ImGui::SetNextWindowPos({screen.x + (right ? -8.f : 16.f), screen.y + 12}, ImGuiCond_Always,
-                            {right ? 1.f : 0.f, 0});
-    if (ImGui::BeginTooltip()) {
-        ImGui::TextUnformatted(text.c_str());
-        e.mark("drop.preview");
-        if (!onto.empty()) e.mark("drop.onto." + onto);
-        ImGui::EndTooltip();
-    }
+    drop_tip(e, text, onto, screen);
 }
 
 void ask_scope(SelectContext& e, const std::vector<InstanceId>& objects, const std::string& what,

@@ -17,6 +17,10 @@ namespace restage::editor {
 class PanelContext;
 class SelectContext;
 
+// The object under that point of the film ([0,1) each way), from the scene, as the picture may be out of date.
+InstanceId target_at(const PanelContext& editor, glm::dvec2 film);
+// The tooltip of a drag: replaces that of its source, see accept_asset(). `onto`: named by a mark, "" = nothing.
+void drop_tip(PanelContext& editor, const std::string& text, const std::string& onto, ImVec2 screen);
 // While it is dragged over that point: outlines the target object and describes the effect of a drop.
 void preview_drop(PanelContext& editor, const std::filesystem::path& path, ImVec2 screen);
 

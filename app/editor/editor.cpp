@@ -286,6 +286,7 @@ void Editor::apply_pending() {
 
 void Editor::refresh_picture() {
     const scene::Settings& settings = scene().settings.value;
+    const Trial trial = current_trial(panel_state->library);
     const Shown wanted{.version = session_->version(),
                        .plugins = registry_.version(),
                        .view = views.version(),
@@ -296,10 +297,11 @@ void Editor::refresh_picture() {
                        .seconds = view.seconds,
                        .error = view.error,
                        .paused = files_->jobs.picture_paused(),
-                       .look = view::look_of(view.display.layer)};
+                       .look = view::look_of(view.display.layer),
+                       .trial = trial.number};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
-    scene::Scene shown = scene();
+    scene::Scene shown = shown_scene_.follow(scene(), document_, trial);
     if (wanted.original) {
         // The camera stays where it is, so that the two can be compared.
         shown = *original_;

@@ -6,6 +6,7 @@
 
 #include "opening.hpp"
 #include "panel_context.hpp"
+#include "shown_scene.hpp"
 
 namespace restage::io {
 struct ImportedScene;
@@ -62,6 +63,7 @@ class Editor final : public PanelContext {
     void remember_preferences(); // when they changed
 
     Preferences remembered_;
+    ShownScene shown_scene_;
     double plugins_looked_at_ = 0; // [s], as ImGui::GetTime
     std::optional<glm::dmat4> camera_place_; // of the scene's camera as last seen by the view
     bool quit_ = false, reset_layout_ = false;
@@ -76,6 +78,7 @@ class Editor final : public PanelContext {
         double seconds = 0, error = 0;
         bool paused = false;
         std::optional<render::ClayLook> look;
+        std::uint64_t trial = 0; // Trial::number
         bool operator==(const Shown&) const = default;
     } asked_;
     struct Latency { // the latest of each [ms]

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "material_balls.hpp"
 
+#include "base/file.hpp"
 #include "base/thread_priority.hpp"
+#include "io/image_file.hpp"
 #include "render/material_types.hpp"
 #include "render/renderer.hpp"
 #include "scene/bounds.hpp"
 #include "scene/edits.hpp"
+#include "scene/same_material.hpp"
 #include "scene/sky.hpp"
 #include "view/display.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,8 +21,9 @@ namespace restage::editor {
 
 namespace {
 
-constexpr std::uint32_t side = 64; // [pixel]
+constexpr std::uint32_t side = 128; // [pixel]
 constexpr std::uint32_t samples = 32; // a pixel
+constexpr std::uint64_t drawing = 1; // a new number: kept pictures are not used any more
 constexpr std::size_t most_waiting = 64; // balls; older requests are dropped, and repeated once visible again
 
 // A unit ball around the origin. Textures go around it twice, so that their scale is visible.
@@ -44,6 +49,51 @@ std::shared_ptr<const scene::MeshData> ball_mesh() {
     return mesh;
 }
 
+// Where the picture of a preset is kept; "" = nowhere: a table's file may change unnoticed.
+std::filesystem::path kept_at(const MaterialBalls::Maker& maker, const document::Preset& preset) {
+    std::filesystem::path cache = maker.options.cache_dir;
+    if (cache.empty()) cache = cache_dir().value_or(std::filesystem::path());
+    if (cache.empty()) return {};
+    std::uint64_t key = scene::material_hash(preset.parts, preset.material);
+    bool stable = true;
+    preset.parts.materials.each([&](auto, const scene::Material& m) {
+        const auto plugin = maker.registry.find_material(m.type);
+        const std::uint64_t revision = plugin ? plugin->source->revision() : 0;
+        key = hash64(&revision, sizeof revision, key);
+        m.params.each_value([&](const scene::Value& v) { stable &= v.type != model::ParamType::table; });
+    });
+    preset.parts.textures.each([&](auto, const scene::Texture& t) {
+        t.params.each_value([&](const scene::Value& v) { stable &= v.type != model::ParamType::table; });
+    });
+    if (!stable) return {};
+    return cache / "balls" / fmt::format("{:016x}-{}-{}.png", key, drawing, side);
+}
+
+std::vector<std::uint32_t> read_kept(const std::filesystem::path& file) {
+    std::error_code code;
+    if (file.empty() || !std::filesystem::exists(file, code)) return {};
+    const auto image = io::read_image(file.string(), scene::Encoding::srgb);
+    if (!image || image->width != side || image->height != side || image->channels != 3) return {};
+    std::vector<std::uint32_t> rgba(std::size_t(side) * side, 0xff000000u);
+    for (std::size_t i = 0; i < rgba.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            rgba[i] |= std::uint32_t(std::lround(255 * io::linear_to_srgb(image->values[3 * i + c]))) << (8 * c);
+    return rgba;
+}
+
+// Failing is not an error: it is rendered again next time.
+void keep(const std::filesystem::path& file, const std::vector<std::uint32_t>& rgba) {
+    if (file.empty()) return;
+    std::error_code code;
+    std::filesystem::create_directories(file.parent_path(), code);
+    scene::PixelData image{.width = side, .height = side, .channels = 3, .values = {}};
+    image.values.reserve(3 * rgba.size());
+    for (const std::uint32_t pixel : rgba)
+        for (int c = 0; c < 3; ++c)
+            image.values.push_back(io::srgb_to_linear(float(pixel >> (8 * c) & 255) / 255));
+    static_cast<void>(io::write_png(file.string(), image));
+}
+
 } // namespace
 
 scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id) {
@@ -67,8 +117,13 @@ scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id
     apply(ball, remove_unused(ball));
     Camera camera{.name = "ball", .fov = 29};
     camera.camera_to_world[3] = {0, 0, -4.1, 1}; // looks along +z
-    if (ball.cameras.find(ball.active_camera.value))
+    if (ball.cameras.find(ball.active_camera.value)) {
         apply(ball, set_camera(ball, ball.active_camera.value, camera, "").value());
+    } else {
+        const Id<Camera> made = ball.cameras.next();
+        apply(ball, insert(ball, camera, ""));
+        apply(ball, set_active_camera(ball, made).value());
+    }
     ball.film.value = Film{.width = side, .height = side};
     ball.settings.value = {};
     return ball;
@@ -84,10 +139,10 @@ MaterialBalls::~MaterialBalls() {
 }
 
 void MaterialBalls::forget() {
-    balls_.clear();
+    std::erase_if(balls_, [](const auto& one) { return one.second.made.document != 0; });
     ++document_;
     const std::lock_guard lock(mutex_);
-    jobs_.clear();
+    std::erase_if(jobs_, [](const Job& job) { return job.made.document != 0; });
 }
 
 const Texture* MaterialBalls::ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id) {
@@ -95,16 +150,30 @@ const Texture* MaterialBalls::ball(const Maker& maker, const scene::Scene& scene
                    .materials = scene.materials.version(),
                    .textures = scene.textures.version(),
                    .images = scene.images.version(),
+                   .preset = 0,
                    .plugins = maker.registry.version()};
-    Ball& ball = balls_[id.value];
-    if (ball.made != now && scene.cameras.find(scene.active_camera.value)) {
+    return request(maker, std::to_string(id.value), now, [&] {
+        return document::Preset{
+            .name = {}, .category = {}, .source = {}, .file = {}, .parts = scene, .material = id, .hash = 0};
+    });
+}
+
+const Texture* MaterialBalls::ball(const Maker& maker, const document::Preset& preset) {
+    return request(maker, preset.file.string(), {.preset = preset.hash, .plugins = maker.registry.version()},
+                   [&] { return preset; });
+}
+
+const Texture* MaterialBalls::request(const Maker& maker, const std::string& key, const Made& now,
+                                      const std::function<document::Preset()>& make) {
+    Ball& ball = balls_[key];
+    if (ball.made != now) {
         ball.made = now;
         {
             const std::lock_guard lock(mutex_);
-            std::erase_if(jobs_, [&](const Job& job) { return job.id == id; });
-            jobs_.push_front({.id = id, .made = now, .scene = scene});
+            std::erase_if(jobs_, [&](const Job& job) { return job.key == key; });
+            jobs_.push_front({.key = key, .made = now, .preset = make()});
             while (jobs_.size() > most_waiting) {
-                balls_[jobs_.back().id.value].made = {};
+                balls_[jobs_.back().key].made = {};
                 jobs_.pop_back();
             }
         }
@@ -121,8 +190,8 @@ void MaterialBalls::poll() {
         finished.swap(finished_);
     }
     for (const Finished& one : finished) {
-        if (one.made.document != document_) continue;
-        auto& texture = balls_[one.id.value].texture;
+        if (one.made.document != 0 && one.made.document != document_) continue;
+        auto& texture = balls_[one.key].texture;
         if (!texture) texture = std::make_unique<Texture>();
         texture->set(side, side, one.rgba);
     }
@@ -138,22 +207,33 @@ void MaterialBalls::work(Maker maker) {
     while (true) {
         more_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
         if (stop_) return;
-        const Job job = std::move(jobs_.front());
+        Job job = std::move(jobs_.front());
         jobs_.pop_front();
         lock.unlock();
         std::vector<std::uint32_t> rgba;
         const auto render = [&]() -> Result<void> {
+            std::filesystem::path kept;
+            if (job.made.document == 0) {
+                RESTAGE_CHECK(document::read_images(job.preset));
+                kept = kept_at(maker, job.preset);
+                if (rgba = read_kept(kept); !rgba.empty()) return {};
+            }
             if (!renderer) {
                 RESTAGE_TRY(renderer, render::Renderer::create(maker.options, render::material_lookup(maker.registry),
                                                                maker.log));
             }
             renderer->forget_scene(); // two balls of one scene have the same versions
-            RESTAGE_CHECK(renderer->sync(ball_scene(job.scene, job.id)));
+            RESTAGE_CHECK(renderer->sync(ball_scene(job.preset.parts, job.preset.material)));
+            bool stopped = false;
             RESTAGE_CHECK(renderer->trace(samples, [&] {
                 const std::lock_guard guard(mutex_);
-                return !stop_;
+                stopped = stop_;
+                return !stopped;
             }));
+            if (stopped) return {};
             view::to_display(renderer->image(), {}, rgba);
+            ++rendered_;
+            if (rgba.size() == std::size_t(side) * side) keep(kept, rgba);
             return {};
         };
         if (const auto done = render(); !done) {
@@ -164,7 +244,7 @@ void MaterialBalls::work(Maker maker) {
         lock.lock();
         if (stop_) return;
         if (rgba.size() != std::size_t(side) * side) continue;
-        finished_.push_back({.id = job.id, .made = job.made, .rgba = std::move(rgba)});
+        finished_.push_back({.key = job.key, .made = job.made, .rgba = std::move(rgba)});
         if (wake_) wake_();
     }
 }

@@ -35,7 +35,8 @@ std::size_t data_bytes(const Scene& s) {
     return bytes;
 }
 
-// A material travels with an object that has it: merging drops unused items.
+} // namespace
+
 void add_carrier(Scene& s, Id<Material> material) {
     auto triangle = std::make_shared<MeshData>();
     triangle->positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -46,10 +47,8 @@ void add_carrier(Scene& s, Id<Material> material) {
     apply(s, insert(s, Instance{.name = "carrier", .mesh = mesh, .material = material}, ""));
 }
 
-} // namespace
-
-Result<std::string> copy_text(const Session& session, const Selected& selected) {
-    Scene part = session.scene(); // shares its data
+Result<Scene> part_of(const Scene& scene, const Selected& selected) {
+    Scene part = scene; // shares its data
     const std::set<Id<Instance>> wanted(selected.instances.begin(), selected.instances.end());
     Edit rest;
     part.instances.each([&](Id<Instance> id, const Instance& i) {
@@ -71,7 +70,11 @@ Result<std::string> copy_text(const Session& session, const Selected& selected) 
     }
     if (part.instances.live() + part.lights.live() == 0) return fail("nothing to copy");
     apply(part, remove_unused(part));
+    return part;
+}
 
+Result<std::string> copy_text(const Session& session, const Selected& selected) {
+    RESTAGE_TRY(const Scene part, part_of(session.scene(), selected));
     DataSources sources;
     if (data_bytes(part) > most_inline) {
         sources = session.sources();

@@ -17,6 +17,10 @@ struct Selected { // objects, or a light, or a material
     scene::Id<scene::Light> light;
     scene::Id<scene::Material> material;
 };
+// The selection with all it needs, and the camera, which defines up and handedness. A material is on a carrier: a small
+// object, because merging drops what none uses. An error if it does not exist.
+Result<scene::Scene> part_of(const scene::Scene&, const Selected&);
+void add_carrier(scene::Scene&, scene::Id<scene::Material>);
 // An error if larger than the clipboard's limit.
 Result<std::string> copy_text(const Session&, const Selected&);
 

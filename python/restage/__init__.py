@@ -30,6 +30,7 @@ from ._core import (
 )
 from .bsdf import Bsdf, BsdfSample
 from . import spread
+from .presets import Preset, presets
 from .checking import CheckReport, CheckStep, check
 
 __version__ = _core.version()
@@ -60,7 +61,7 @@ def bundled_scene(name: str) -> _pathlib.Path:
 __all__ = [
     "Action", "ActionResult",
     "Bsdf", "BsdfSample", "Camera", "Cameras", "Cancelled", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
-    "Object", "Objects", "Parameter", "Picture", "Plugin", "Progress", "Report", "ReportEntry", "Selection", "Session",
-    "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "reload_plugins",
+    "Object", "Objects", "Parameter", "Picture", "Plugin", "Preset", "Progress", "Report", "ReportEntry", "Selection", "Session",
+    "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "presets", "reload_plugins",
     "sky_types", "spread", "texture_types",
 ]

@@ -4,9 +4,11 @@
 #include "values.hpp"
 #include "work.hpp"
 
+#include "document/preset.hpp"
 #include "document/project.hpp"
 #include "io/strict.hpp"
 #include "query/wholes.hpp"
+#include "scene/same_material.hpp"
 #include "scene/sky.hpp"
 #include "scene/studio.hpp"
 
@@ -73,6 +75,13 @@ Handle<Material> add_material(const Shared& w, const std::string& name, const st
     }
     w->end_step();
     return h;
+}
+
+Handle<Material> add_preset(const Shared& w, const std::filesystem::path& file) {
+    auto preset = take(document::read_preset(file, w->host().registry()));
+    take(document::read_images(preset));
+    w->edit(document::give_preset(w->scene(), preset, {}));
+    return {w, find_same_material(w->scene(), preset.parts, preset.material)};
 }
 
 Handle<Light> add_light(const Shared& w, const std::string& kind, const Three& value, const std::string& name) {
@@ -344,6 +353,9 @@ void bind_contents(nb::class_<Workspace>& c) {
             "Removes the environment.")
         .def("add_material", &add_material, "name"_a, "type"_a, "values"_a,
              "A new material: add_material(\"Brass\", \"conductor\", uroughness=0.2, vroughness=0.2).")
+        .def("add_preset", &add_preset, "path"_a,
+             "The material of a preset, see restage.presets(): an equal one of the scene, or a new one.",
+             nb::sig("def add_preset(self, path: str | os.PathLike) -> Material"))
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
              "A new light at the origin. kind: point, spot or distant; value: see Light.value.")
         .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(), "options"_a = nb::none(),

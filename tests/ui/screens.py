@@ -341,6 +341,64 @@ def assets(s):
     time.sleep(2)
 
 
+def balls(s, shown=6, seconds=300):
+    """Until the visible presets have their pictures."""
+    s.editor.wait(lambda t: sum(m.startswith("materials.ball.") for m in t["marks"]) >= shown, "balls", seconds)
+
+
+@state
+def materials(s):
+    s.start(DEMO)
+    s.tab("Materials")
+    balls(s)
+
+
+@state
+def materials_searched(s):
+    s.start(DEMO)
+    s.tab("Materials")
+    s.editor.click("materials.search")
+    s.editor.type("glass")
+    balls(s, 4)
+    s.editor.move("materials.Crown glass")
+    time.sleep(1)
+
+
+@state
+def material_tried(s):
+    s.start(DEMO)
+    s.select("Chair frame")
+    s.tab("Materials")
+    s.editor.click("materials.search")
+    s.editor.type("gold")
+    balls(s, 2)
+    s.editor.move("materials.Gold")
+    time.sleep(4)
+
+
+@state
+def dragging_a_material(s):
+    s.start(DEMO)
+    s.tab("Materials")
+    s.editor.click("materials.search")
+    s.editor.type("gold")
+    balls(s, 2)
+    s.editor.move("materials.Gold")
+    s.desk.xdotool("mousedown", 1)
+    for i in range(1, 6):
+        x, y = s.editor.point(("picture", 0.5, 0.95 - 0.08 * i))
+        s.desk.xdotool("mousemove", x, y)
+        time.sleep(0.1)
+
+
+@state
+def saving_a_preset(s):
+    s.start(DEMO)
+    s.select("Chair frame")
+    s.editor.click("material.save_preset")
+    time.sleep(0.5)
+
+
 @state
 def dragging_an_asset(s):
     assets(s)

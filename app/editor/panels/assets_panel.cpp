@@ -7,6 +7,7 @@
 #include "file_browser.hpp"
 #include "inspector.hpp"
 #include "io/image_file.hpp"
+#include "library.hpp"
 #include "panel_context.hpp"
 #include "scene_panel.hpp"
 #include "state.hpp"
@@ -175,9 +176,18 @@ const AssetsState::Thumbnail& thumbnail_of(PanelUi& e, const std::string& file) 
 
 void accept_asset(PanelContext& e) {
     if (!ImGui::BeginDragDropTarget()) return;
-    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(
-            "restage.path", ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect |
-                                ImGuiDragDropFlags_AcceptNoPreviewTooltip)) {
+    constexpr ImGuiDragDropFlags while_over = ImGuiDragDropFlags_AcceptBeforeDelivery |
+                                              ImGuiDragDropFlags_AcceptNoDrawDefaultRect |
+                                              ImGuiDragDropFlags_AcceptNoPreviewTooltip;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(material_payload, while_over)) {
+        const std::string key(static_cast<const char*>(payload->Data));
+        const ImVec2 at = ImGui::GetIO().MousePos;
+        if (payload->IsDelivery())
+            e.later([&e, key, at] { drop_material(e, key, at); });
+        else
+            preview_material_drop(e, key, at);
+    }
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload("restage.path", while_over)) {
         const std::filesystem::path path(static_cast<const char*>(payload->Data));
         const ImVec2 at = ImGui::GetIO().MousePos;
         if (payload->IsDelivery())

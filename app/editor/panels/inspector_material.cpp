@@ -3,6 +3,7 @@
 #include "copy_paste.hpp"
 #include "drop.hpp"
 #include "inspector.hpp"
+#include "library.hpp"
 #include "panel_context.hpp"
 #include "panels/plugin_ui.hpp"
 #include "param_widget.hpp"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace restage::editor {
 
@@ -43,6 +45,68 @@ void swatch(DocumentContext& e, MaterialId id, ImVec2 at, float size) {
     }
     const glm::vec3 c = swatch_color(e, e.scene().materials[id]);
     draw->AddRectFilled(at, end, ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1}), size * 0.15f);
+}
+
+std::string type_name(const model::Material& table) { return table.label + " (" + table.type + ")"; }
+
+struct TypeUse {
+    plugin::MaterialEntry type;
+    std::map<std::string, std::size_t> presets; // by what they are
+    const document::Preset* example = nullptr; // of the main category
+};
+
+// The types by what most of their presets are; those without presets come last.
+std::vector<std::pair<std::string, std::vector<TypeUse>>> types_by_use(DocumentContext& e) {
+    std::map<std::string, std::vector<TypeUse>> found;
+    std::vector<TypeUse> others;
+    for (const plugin::MaterialEntry& type : e.registry().materials()) {
+        TypeUse use{.type = type, .presets = {}};
+        std::map<std::string, const document::Preset*> first;
+        for (const LibraryItem& item : presets_of(e))
+            if (item.preset->parts.materials[item.preset->material].type == type.table->type) {
+                ++use.presets[item.category];
+                first.emplace(item.category, item.preset.get());
+            }
+        const auto most = std::ranges::max_element(use.presets, {}, [](const auto& one) { return one.second; });
+        if (most == use.presets.end()) {
+            others.push_back(std::move(use));
+            continue;
+        }
+        use.example = first[most->first];
+        found[most->first].push_back(std::move(use));
+    }
+    std::vector<std::pair<std::string, std::vector<TypeUse>>> all(found.begin(), found.end());
+    if (!others.empty()) all.emplace_back("Other", std::move(others));
+    return all;
+}
+
+// A ball of it, its name, and what its presets are. True if it was chosen.
+bool type_row(DocumentContext& e, const TypeUse& use, const std::string& current) {
+    const model::Material& table = *use.type.table;
+    const float line = ImGui::GetTextLineHeight(), high = 2.2f * line;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushID(table.type.c_str());
+    const bool chosen = ImGui::Selectable("##type", current == table.type, 0, {21 * ImGui::GetFontSize(), high});
+    ImGui::PopID();
+    tip(table.tooltip.c_str());
+    e.mark("material.type." + table.type);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const Texture* ball = use.example && ImGui::IsItemVisible()
+                              ? e.panel_state->balls.ball({e.registry(), e.log(), e.options().renderer}, *use.example)
+                              : nullptr;
+    const ImVec2 from(at.x, at.y + 1), to(at.x + high - 2, at.y + high - 1);
+    if (ball)
+        draw->AddImageRounded(ball->ref(), from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, high * 0.15f);
+    else
+        draw->AddRectFilled(from, to, ImGui::GetColorU32(ImGuiCol_FrameBg), high * 0.15f);
+    const float text = at.x + high + ImGui::GetStyle().ItemSpacing.x;
+    std::string uses;
+    for (const auto& [what, count] : use.presets)
+        uses += (uses.empty() ? "" : ", ") + what;
+    const float top = at.y + (high - (uses.empty() ? line : 2 * line)) / 2;
+    draw->AddText({text, top}, ImGui::GetColorU32(ImGuiCol_Text), type_name(table).c_str());
+    draw->AddText({text, top + line}, ImGui::GetColorU32(colors::dim), uses.c_str());
+    return chosen;
 }
 
 // Assigns, copies, creates. `current` may be none.
@@ -119,6 +183,11 @@ void material_choice(SelectContext& e, MaterialId current) {
     tip(held ? ("Give the selection \"" + held->name + "\"").c_str()
              : "Give the selection the copied material, from here or another Restage window");
     e.mark("material.paste");
+    ImGui::BeginDisabled(!material);
+    if (flow_button("Save as preset...")) ask_save_preset(e, current);
+    ImGui::EndDisabled();
+    tip("For the panel Materials, in every scene");
+    e.mark("material.save_preset");
     bool mixed = false;
     for (const InstanceId one : selected)
         mixed = mixed || e.scene().instances[one].material != current;
@@ -249,17 +318,16 @@ void material_section(SelectContext& e, MaterialId id) {
 
     const auto plugin = e.registry().find_material(material->type);
     form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of surface it is");
-    if (ImGui::BeginCombo("##type", (plugin ? plugin->table->label : material->type).c_str(),
+    if (ImGui::BeginCombo("##type", plugin ? type_name(*plugin->table).c_str() : material->type.c_str(),
                           ImGuiComboFlags_HeightLargest)) {
-        for (const auto& choice : e.registry().materials()) {
-            if (ImGui::Selectable(choice.table->label.c_str(), material->type == choice.table->type) &&
-                material->type != choice.table->type)
-                e.edit([id, type = std::string(choice.table->type), before = table_of(plugin),
-                        after = table_of(choice)](const scene::Scene& s) {
-                    return scene::switch_material_type(s, id, type, before, after);
-                });
-            tip(choice.table->tooltip.c_str());
-            e.mark(std::string("material.type.") + choice.table->type);
+        for (const auto& [what, types] : types_by_use(e)) {
+            ImGui::SeparatorText(what.c_str());
+            for (const TypeUse& choice : types)
+                if (type_row(e, choice, material->type) && material->type != choice.type.table->type)
+                    e.edit([id, type = choice.type.table->type, before = table_of(plugin),
+                            after = table_of(choice.type)](const scene::Scene& s) {
+                        return scene::switch_material_type(s, id, type, before, after);
+                    });
         }
         ImGui::EndCombo();
     }

@@ -29,6 +29,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"Plugins", give<draw_plugins>, Dock::bottom, false,
      "Loaded plugins and their folders, and why others are not loaded"},
     {"Assets", give<draw_assets>, Dock::bottom, true, "Scenes, skies, textures and meshes to add"},
+    {"Materials", give<draw_materials>, Dock::bottom, true, "Balls of materials, to click or drag onto objects"},
     {"Log", give<draw_log>, Dock::bottom, true, "What happened"},
     {"Help", give<draw_help>, Dock::floating, false, "All shortcuts, and how to navigate"},
 });

@@ -25,10 +25,11 @@ void draw_plugins(DocumentContext& editor);
 void draw_log(PanelUi& editor);
 void draw_history(EditContext& editor);
 void draw_assets(SelectContext& editor);
+void draw_materials(SelectContext& editor);
 void draw_help(PanelUi& editor, PictureView& picture);
 
 // Makes the last item (the picture) a drop target for assets: an image on an object or the background, a mesh,
-// a scene.
+// a scene; and for materials.
 void accept_asset(PanelContext& editor);
 // All assets of a kind, whether the panel was shown or not.
 std::vector<std::string> assets_of(PanelUi& editor, AssetKind kind);

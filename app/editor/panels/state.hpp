@@ -7,6 +7,7 @@
 #include "check/step.hpp"
 #include "finding_things.hpp"
 #include "image_loads.hpp"
+#include "library.hpp"
 #include "material_balls.hpp"
 #include "palette.hpp"
 #include "scene/statistics.hpp"
@@ -132,6 +133,7 @@ struct PanelState {
         things.stop();
         inspector = {};
         outliner = {};
+        library.trial = {};
         report = {};
         convergence.current = {};
         convergence.previous = {};
@@ -143,6 +145,7 @@ struct PanelState {
 
     ImageLoads loads;
     MaterialBalls balls;
+    LibraryState library;
     SkyMaking skies;
     FindingThings things;
     InspectorState inspector;
