@@ -111,6 +111,7 @@ void Editor::frame(const std::vector<int>* keys) {
     follow_plugins();
     panel_state->loads.poll();
     panel_state->balls.poll();
+    panel_state->looks.pictures.poll();
     follow_sky(*this);
     follow_convergence(*this, *this);
     run_shortcuts(*this, keys);

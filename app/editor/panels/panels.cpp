@@ -21,6 +21,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"Inspector", give<draw_inspector>, Dock::right, true, "The selection: its place, material and light"},
     {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and rendering"},
     {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
+    {"Looks", give<draw_looks>, Dock::bottom, true, "Named variations of the scene, and pictures to compare"},
     {"Import report", give<draw_import_report>, Dock::bottom, true,
      "What was kept, approximated or dropped on opening"},
     {"Convergence", give<draw_convergence>, Dock::bottom, true, "Estimated error against time and samples"},

@@ -22,6 +22,7 @@ void draw_convergence(PanelUi& editor, const PictureView& picture);
 void draw_plugins(DocumentContext& editor);
 void draw_log(PanelUi& editor);
 void draw_history(EditContext& editor);
+void draw_looks(SelectContext& editor, PictureView& picture);
 void draw_assets(SelectContext& editor);
 void draw_help(PanelUi& editor, PictureView& picture);
 
