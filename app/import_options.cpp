@@ -17,12 +17,12 @@ void add_import_options(CLI::App& command, std::vector<std::string>& assignments
 }
 
 Result<io::ImportedScene> open_scene_with(Context& context, const std::string& path, bool strict,
-                                          std::span<const std::string> assignments) {
-    if (assignments.empty()) return open_scene(context, path, strict);
+                                          std::span<const std::string> assignments, document::Looks* looks) {
+    if (assignments.empty()) return open_scene(context, path, strict, {}, looks);
     scene::ParamSet options; // as text: the importer is not known yet
     for (const std::string& assignment : assignments)
         RESTAGE_CHECK(io::set_text_option(assignment, options));
-    return open_scene(context, path, strict, options);
+    return open_scene(context, path, strict, options, looks);
 }
 
 } // namespace restage::app

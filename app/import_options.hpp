@@ -10,12 +10,16 @@
 #include <string>
 #include <vector>
 
+namespace restage::document {
+struct Looks;
+}
+
 namespace restage::app {
 
 void add_import_options(CLI::App& command, std::vector<std::string>& assignments);
 
 // open_scene (rendering.hpp) with assignments like "up=z".
 Result<io::ImportedScene> open_scene_with(Context& context, const std::string& path, bool strict,
-                                          std::span<const std::string> assignments);
+                                          std::span<const std::string> assignments, document::Looks* looks = nullptr);
 
 } // namespace restage::app

@@ -4,7 +4,7 @@
 #include "base/file.hpp"
 #include "document/exposure.hpp"
 #include "document/isolate.hpp"
-#include "document/session.hpp"
+#include "document/looks.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
 #include "render/film_error.hpp"
@@ -142,7 +142,7 @@ Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Co
 }
 
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict,
-                                     const std::optional<scene::ParamSet>& import_options) {
+                                     const std::optional<scene::ParamSet>& import_options, document::Looks* looks) {
     if (path == "-") return fail("-: a scene on stdin is read by `restage render` only; name a file");
     catch_interrupts();
     ProgressBar bar(context.quiet);
@@ -157,6 +157,7 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
         document::Session session(context.registry());
         RESTAGE_CHECK(session.open(path, read));
         imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};
+        if (looks) *looks = session.looks();
     } else {
         RESTAGE_TRY(imported, document::read_scene(path, context.registry(), read));
     }

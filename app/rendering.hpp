@@ -14,6 +14,10 @@
 #include <optional>
 #include <string>
 
+namespace restage::document {
+struct Looks;
+}
+
 namespace restage::app {
 
 struct RenderOptions {
@@ -50,8 +54,10 @@ std::shared_ptr<gpu::DeviceFault> device_fault();
 Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Context& context);
 // `strict`: anything that the import approximates or drops is an error (io/strict.hpp).
 // `import_options`: of its importer; for a project they replace the saved ones.
+// `looks`: gets those of a project; null = not wanted.
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict = false,
-                                     const std::optional<scene::ParamSet>& import_options = {});
+                                     const std::optional<scene::ParamSet>& import_options = {},
+                                     document::Looks* looks = nullptr);
 inline constexpr const char* strict_help =
     "Fail if something in the file is approximated or dropped: a missing file, an undefined name ...";
 

@@ -2,6 +2,7 @@
 // restage info SCENE: contents of a scene file, and what its import kept, approximated and dropped.
 #include "commands.hpp"
 #include "document/exposure.hpp"
+#include "document/looks.hpp"
 #include "import_options.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
@@ -17,7 +18,8 @@
 namespace restage::app {
 namespace {
 
-nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registry& registry) {
+nlohmann::json describe(const io::ImportedScene& imported, const document::Looks& looks,
+                        const plugin::Registry& registry) {
     const scene::Scene& s = imported.scene;
     const scene::Statistics counted = scene::statistics_of(s);
     std::size_t emitters = 0;
@@ -42,6 +44,9 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
     s.cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& c) {
         cameras.push_back({{"name", c.name}, {"active", id == s.active_camera.value}});
     });
+    nlohmann::json look_list = nlohmann::json::array();
+    for (std::size_t i = 0; i < looks.list.size(); ++i)
+        look_list.push_back({{"name", looks.list[i].name}, {"current", i == looks.current}});
     nlohmann::json report = nlohmann::json::array();
     for (const auto& e : imported.report.entries)
         report.push_back(
@@ -65,6 +70,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const plugin::Registr
             {"lit", document::has_light(s, registry)},
             {"cameras", s.cameras.live()},
             {"camera_list", cameras},
+            {"looks", look_list},
             {"film", {{"width", film.width}, {"height", film.height}, {"exposure", film.exposure}}},
             {"max_depth", s.settings.value.max_depth},
             {"samples", s.settings.value.samples},
@@ -103,6 +109,11 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
                             c["active"].get<bool>() ? " (active)" : "");
     }
     std::printf("cameras     %s\n", line.c_str());
+    line.clear();
+    for (const auto& look : d["looks"]) // names for `render --look`
+        line += fmt::format("{}\"{}\"{}", line.empty() ? "" : ", ", look["name"].get<std::string>(),
+                            look["current"].get<bool>() ? " (current)" : "");
+    if (!line.empty()) std::printf("looks       %s\n", line.c_str());
     std::printf("film        %dx%d, %zu samples per pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,
@@ -135,8 +146,9 @@ void add_info(CLI::App& program, Context& context) {
     add_example(*command, "restage info room.pbrt --all");
     command->callback([&context, o] {
         context.choose([&context, o]() -> Result<int> {
-            RESTAGE_TRY(const auto imported, open_scene_with(context, o->scene, o->strict, o->import_options));
-            const auto d = describe(imported, context.registry());
+            document::Looks looks;
+            RESTAGE_TRY(const auto imported, open_scene_with(context, o->scene, o->strict, o->import_options, &looks));
+            const auto d = describe(imported, looks, context.registry());
             if (o->json)
                 std::printf("%s\n", d.dump(2).c_str());
             else

@@ -12,6 +12,7 @@
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
 #include "standard_streams.hpp"
+#include "variants.hpp"
 #include "view/merge_pictures.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +32,9 @@ struct Options : RenderOptions {
     std::vector<std::string> outputs;
     std::string format;                   // of a scene on stdin; "" = pbrt
     std::string frames;                   // "1-24"; "" = the one scene
+    std::string look;                     // its name, or "all"; "" = the scene as it is
+    std::uint32_t turntable = 0;          // frames; 0 = none
+    double turn = 0;                      // of the frame [deg]
     std::vector<std::string> import_options; // "up=z"
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
@@ -115,7 +119,9 @@ Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as c
     std::string changes = fmt::format("{}", fmt::join(o.assignments, "; "));
     for (const std::string& option : o.import_options)
         changes += (changes.empty() ? "import " : "; import ") + option;
+    if (!o.look.empty()) changes += " --look " + o.look;
     if (!o.camera.empty()) changes += " --camera " + o.camera;
+    if (o.turn != 0) changes += fmt::format(" turned by {} degrees", o.turn);
     if (o.studio) changes += " --studio";
     return {{"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
             {"restage:changes", changes},
@@ -185,19 +191,12 @@ Result<void> write(const std::vector<std::string>& paths, const Picture& picture
 
 using RendererPointer = std::unique_ptr<render::Renderer>;
 
-Result<int> render_frame(Context& context, Options o, RendererPointer& renderer) {
-    std::optional<TemporaryFile> piped;
-    if (o.scene == "-") {
-        RESTAGE_TRY(auto file, scene_from_stdin(o.format.empty() ? "pbrt" : o.format));
-        piped.emplace(std::move(file));
-    }
-    RESTAGE_TRY(auto imported,
-                open_scene_with(context, piped ? piped->path().string() : o.scene, o.strict, o.import_options));
-    scene::Scene& scene = imported.scene;
+Result<int> render_scene(Context& context, Options o, scene::Scene scene, RendererPointer& renderer) {
     if (!scene.active_camera.value) // importers add one; a project may have none yet
         return fail(o.scene + ": " + scene::no_camera + "; add one to its original scene");
     RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
+    turn_camera(scene, o.turn);
     RESTAGE_CHECK(apply_crop(o, scene));
     std::optional<view::StoredPicture> before;
     if (!o.resume.empty()) {
@@ -246,6 +245,39 @@ Result<int> render_frame(Context& context, Options o, RendererPointer& renderer)
     return interrupted() ? interrupt_exit_code() : int(exit_ok); // the picture is written
 }
 
+// The scene's picture, or one for each look and camera.
+Result<int> render_frame(Context& context, const Options& o, RendererPointer& renderer) {
+    std::optional<TemporaryFile> piped;
+    if (o.scene == "-") {
+        RESTAGE_TRY(auto file, scene_from_stdin(o.format.empty() ? "pbrt" : o.format));
+        piped.emplace(std::move(file));
+    }
+    document::Looks looks;
+    RESTAGE_TRY(auto imported,
+                open_scene_with(context, piped ? piped->path().string() : o.scene, o.strict, o.import_options, &looks));
+    RESTAGE_TRY(const auto list, variants(imported.scene, looks, o.look, o.camera, o.turntable));
+    for (const std::string& path : o.outputs)
+        if (auto good = check_variant_paths(path, list); !good) return fail("-o", good.error());
+    if (!o.statistics.empty() && o.statistics != "-")
+        if (auto good = check_variant_paths(o.statistics, list); !good) return fail("--statistics", good.error());
+    int code = exit_ok;
+    for (const Variant& variant : list) {
+        Options one = o;
+        one.look = variant.look;
+        one.camera = variant.camera;
+        one.turn = variant.turn;
+        for (std::string& path : one.outputs)
+            path = variant_path(path, variant);
+        for (std::string* path : {&one.statistics, &one.resume})
+            *path = variant_path(*path, variant);
+        const document::Look* look = looks.find(variant.look);
+        RESTAGE_TRY(code, render_scene(context, std::move(one),
+                                       look ? document::with_look(imported.scene, *look) : imported.scene, renderer));
+        if (interrupted()) break;
+    }
+    return code;
+}
+
 // Problems with the options, before hours are spent.
 Result<void> check(Context& context, const Options& o) {
     std::ptrdiff_t to_stdout = o.statistics == "-";
@@ -291,7 +323,7 @@ Result<int> run(Context& context, Options& o) {
             *path = frame_path(*path, frame);
         for (std::string& path : one.outputs)
             path = frame_path(path, frame);
-        RESTAGE_TRY(code, render_frame(context, std::move(one), renderer));
+        RESTAGE_TRY(code, render_frame(context, one, renderer));
         if (interrupted()) break;
     }
     return code;
@@ -316,6 +348,17 @@ void add_render(CLI::App& program, Context& context) {
             "Render one scene file per frame: 7, 1-24, 1-24x2 (every second) or 1-3,9; the number replaces the # in "
             "SCENE and -o, for example shot.####.pbrt -o shot.####.png")
         ->type_name("FRAMES");
+    command
+        ->add_option("--look", o->look,
+                     "A look of a project, as `restage info` lists them, or all: each is one picture, and {look} in -o "
+                     "is its name, for example -o \"{look}.png\". Likewise --camera all and {camera}")
+        ->type_name("NAME");
+    command
+        ->add_option("--turntable", o->turntable,
+                     "Render this many frames of one turn around the scene, with a number in place of # in -o: "
+                     "-o turn.####.png")
+        ->type_name("FRAMES")
+        ->check(CLI::Range(1u, 100000u));
     command
         ->add_option("--set", o->assignments,
                      "Change the scene: \"Wall paint.reflectance=0.1,0.2,0.3\", Chair.material=oak, Lamp.value=40, "

@@ -8,6 +8,8 @@
 #include "editor.hpp"
 #include "importing.hpp"
 #include "io/material_emission.hpp"
+#include "kept_pictures.hpp"
+#include "looks.hpp"
 #include "panels/outliner.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
@@ -187,6 +189,10 @@ template <auto what>
 void run(Editor& e) {
     what(e);
 }
+template <auto what>
+bool has(const PanelContext& e) {
+    return what(e);
+}
 template <GizmoMode mode>
 void set_gizmo(Editor& e) {
     e.view.gizmo = mode;
@@ -318,6 +324,16 @@ constexpr auto actions = std::to_array<Action>({
      }},
     {"select.unlock_all", "Unlock all", 0, 0, "Clicks can select every object again",
      [](const PanelContext& e) { return !e.locked.empty(); }, [](Editor& e) { e.locked.clear(); }},
+    {"look.new", "New look", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_L, 0,
+     "Records how things are now, to go back to: places, visibility, materials, lights, sky, exposure and camera",
+     has_scene, run<new_look>},
+    {"look.next", "Next look", ImGuiKey_PageDown, 0, "Go to the next look", has<has_looks>,
+     [](Editor& e) { step_look(e, 1); }},
+    {"look.previous", "Previous look", ImGuiKey_PageUp, 0, "Go to the previous look", has<has_looks>,
+     [](Editor& e) { step_look(e, -1); }},
+    {"look.keep", "Keep picture", ImGuiKey_K, 0,
+     "Puts the picture aside, with its scene, to compare with; J held over the picture shows it", has_scene,
+     run<keep_picture>},
     {"view.frame_selected", "Frame selected", ImGuiKey_F, ImGuiKey_KeypadDecimal,
      "Move the camera so that the selection fills the picture", has_selection,
      [](Editor& e) { frame_bounds(e, e.selection.bounds(e.scene())); }},

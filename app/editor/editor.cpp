@@ -114,6 +114,7 @@ void Editor::frame(const std::vector<int>* keys) {
     panel_state->loads.poll();
     panel_state->balls.poll();
     panel_state->things.follow(*this);
+    panel_state->looks.pictures.poll();
     follow_sky(*this);
     follow_convergence(*this, *this);
     run_shortcuts(*this, keys);

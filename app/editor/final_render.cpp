@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Final pictures: the scene at its film's full size, by a separate renderer in the background.
+// Final pictures: the scene at its film's full size, or each of its looks and cameras, by a separate renderer in the
+// background.
 #include "base/version.hpp"
-#include "document/session.hpp"
+#include "document/looks.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
+#include "looks.hpp"
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
+#include "scene/edits.hpp"
 #include "view/picture.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 namespace restage::editor {
 
@@ -30,8 +35,34 @@ struct Wish {
     float error = 0; // > 0: stop at this error, or at `samples`
     bool from_view = true; // instead of the scene's camera, if they differ
     bool denoise = true;
+    bool all_looks = false, all_cameras = false; // each is a picture, and its name a part of the file's
     std::string denoiser; // as in Preferences
     fs::path path;
+};
+
+struct Shot { // a picture of a batch
+    scene::Scene scene;
+    std::string name; // "Oak, Camera 2"; "" = there is only this one
+    fs::path path;
+};
+
+// The part of a job that is one of its pictures.
+class Part {
+  public:
+    Part(BackgroundJob& job, std::size_t index, std::size_t count, const std::string& name)
+        : job_(job),
+          from_(double(index) / double(count)),
+          share_(1 / double(count)),
+          before_(name.empty() ? "" : fmt::format("{} of {}, {}: ", index + 1, count, name)) {}
+    bool report(double done, const std::string& stage) { return job_.report(from_ + done * share_, before_ + stage); }
+    bool cancelled() const { return job_.cancelled(); }
+    bool stopping() const { return job_.stopping(); }
+    void keep_result() { job_.keep_result(); }
+
+  private:
+    BackgroundJob& job_;
+    double from_, share_;
+    std::string before_;
 };
 
 double now_seconds() {
@@ -73,12 +104,21 @@ Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
     };
 }
 
-Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
-                    const scene::Scene& scene, const Wish& wish, const std::string& scene_name) {
-    RESTAGE_CHECK(view::check_picture_path(wish.path.string()));
+using RendererPointer = std::unique_ptr<render::Renderer>;
+
+// `renderer`: made for the first picture.
+Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
+                    RendererPointer& renderer, const Shot& shot, const Wish& wish, const std::string& scene_name) {
+    const scene::Scene& scene = shot.scene;
+    RESTAGE_CHECK(view::check_picture_path(shot.path.string()));
     job.report(0, "opening the renderer");
     options.stand_ins = false;
-    RESTAGE_TRY(const auto renderer, render::Renderer::create(options, render::material_lookup(registry), log));
+    if (!renderer) {
+        RESTAGE_TRY(renderer, render::Renderer::create(options, render::material_lookup(registry), log));
+    }
+    renderer->forget_scene(); // looks of one document have the same versions
+    renderer->reset_stats();
+    renderer->restart(options.seed, 0);
     job.report(0, "preparing shaders and acceleration structures");
     bool revived = false;
     renderer->plan(wish.samples);
@@ -147,22 +187,74 @@ Result<Done> render(BackgroundJob& job, const plugin::Registry& registry, Log& l
         log.warning(fmt::format("{} samples of material type \"{}\" were non-finite and were omitted", count, type));
     finished->text += fmt::format("{}x{}, {} samples per pixel in {:.1f} s", picture.film.width, picture.film.height,
                                   renderer->samples(), now_seconds() - start);
-    return write(finished, wish.path);
+    return write(finished, shot.path);
+}
+
+// "kitchen.png" -> "kitchen - Oak - Camera 2.png"
+fs::path shot_path(const fs::path& path, const std::vector<std::string>& names) {
+    std::string stem = path.stem().string();
+    for (std::string name : names) {
+        for (char& c : name)
+            if (std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos) c = '_';
+        stem += " - " + name;
+    }
+    return path.parent_path() / (stem + path.extension().string());
+}
+
+std::vector<Shot> shots(const PanelContext& e, const Wish& wish) {
+    std::vector<std::pair<std::string, scene::Scene>> scenes;
+    if (wish.all_looks)
+        for (const document::Look& look : e.session().looks().list)
+            scenes.emplace_back(look.name, document::with_look(e.scene(), look));
+    else
+        scenes.emplace_back("", wish.from_view ? scene_as_seen(e) : e.scene());
+    std::vector<Shot> list;
+    for (const auto& variant : scenes) {
+        const std::string& look = variant.first;
+        const scene::Scene& scene = variant.second;
+        std::vector<std::string> names;
+        if (!look.empty()) names.push_back(look);
+        if (!wish.all_cameras) {
+            list.push_back({scene, look, shot_path(wish.path, names)});
+            continue;
+        }
+        std::set<std::string> taken; // cameras of a file may have equal names
+        names.emplace_back();
+        scene.cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& camera) {
+            names.back() = taken.contains(camera.name) ? scene::next_name(camera.name, taken) : camera.name;
+            taken.insert(names.back());
+            scene::Scene from = scene;
+            from.active_camera = {id, ++from.clock};
+            list.push_back({std::move(from), fmt::format("{}", fmt::join(names, ", ")), shot_path(wish.path, names)});
+        });
+    }
+    return list;
 }
 
 void start(PanelContext& e, const Wish& wish) {
     e.files().last_picture = wish.path;
     const fs::path path(e.session().path());
-    scene::Scene seen = e.scene();
-    if (const auto id = seen.active_camera.value; wish.from_view && seen.cameras.find(id))
-        seen.cameras.set(id, e.camera(), ++seen.clock);
-    e.files().jobs.start(
-        {.title = "Final picture " + wish.path.filename().string(), .can_finish_early = true, .pauses_picture = true},
-        [wish, scene = std::move(seen), &registry = e.registry(), &log = e.log(), options = e.options().renderer,
-         name = path.filename().string()](BackgroundJob& job) -> Done {
-            auto done = render(job, registry, log, options, scene, wish, name);
-            return done ? *done : say(LogLevel::error, done.error().message);
-        });
+    std::vector<Shot> list = shots(e, wish);
+    const bool one = list.size() == 1;
+    e.files().jobs.start({.title = one ? "Final picture " + list[0].path.filename().string()
+                                       : fmt::format("{} final pictures", list.size()),
+                          .can_finish_early = one,
+                          .pauses_picture = true},
+                         [wish, list = std::move(list), &registry = e.registry(), &log = e.log(),
+                          options = e.options().renderer, name = path.filename().string()](BackgroundJob& job) -> Done {
+                             RendererPointer renderer;
+                             std::vector<Done> all;
+                             for (std::size_t i = 0; i < list.size() && !job.cancelled(); ++i) {
+                                 const std::string& called = list.size() > 1 ? list[i].name : "";
+                                 auto done = render(Part(job, i, list.size(), called), registry, log, options, renderer,
+                                                    list[i], wish, name);
+                                 all.push_back(done ? std::move(*done) : say(LogLevel::error, done.error().message));
+                             }
+                             return [all = std::move(all)](PanelContext& editor) {
+                                 for (const Done& done : all)
+                                     done(editor);
+                             };
+                         });
 }
 
 } // namespace
@@ -184,6 +276,17 @@ void final_render_dialog(PanelContext& e) {
             ImGui::SameLine();
             if (ImGui::RadioButton("Camera", !wish->from_view)) wish->from_view = false;
             editor.mark("final.camera");
+        }
+        const std::size_t looks = editor.session().looks().list.size(), cameras = editor.scene().cameras.live();
+        if (looks > 0) {
+            form_row("Every look", "One picture of each look, with its name in the file's");
+            ImGui::Checkbox("##looks", &wish->all_looks);
+            editor.mark("final.looks");
+        }
+        if (cameras > 1) {
+            form_row("Every camera", "One picture from each camera and bookmark, with its name in the file's");
+            ImGui::Checkbox("##cameras", &wish->all_cameras);
+            editor.mark("final.cameras");
         }
         int samples = int(wish->samples);
         form_row("Samples", "Light paths per pixel: twice as many take twice the time and leave 0.7 of the noise");

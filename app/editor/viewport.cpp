@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewport.hpp"
 
+#include "kept_pictures.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "panels/panels.hpp"
@@ -57,6 +58,7 @@ void Viewport::draw(PanelContext& e) {
         if (!measurement.on) gizmo = draw_gizmo(e, corner, size);
         if (cone_held_) gizmo.wants_mouse = true;
     }
+    draw_comparison(e, corner, size);
     // Not a button: ImGuizmo ignores clicks while an item is hovered, or was a frame ago.
     ImGui::SetCursorScreenPos(corner);
     ImGui::Dummy(size);

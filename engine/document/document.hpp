@@ -52,12 +52,15 @@ class DataSources {
     std::map<const void*, Held> by_data_;
 };
 
+struct Looks; // looks.hpp
+
 struct Document {
     std::string path; // of the file that was read
     Base base;
     scene::Edit changes; // from the base to the saved state; empty for a scene file
     io::Report report;   // of the base's import, and changes that did not fit
     DataSources sources;
+    std::shared_ptr<const Looks> looks = nullptr; // looks.hpp; null = none
     std::string unknown; // JSON: additions of a newer program to a project; written back
     std::map<std::string, std::string> note; // of a recovery file, see recovery.hpp
     bool unsaved = false; // not as in the file: its scene was read with other options

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Project files, *.restage: JSON with the base scene by path, format and content hash, and the changes against
-// its import. References are "#17 oak": the id in the base (new items follow in order) and the name there, by
-// which it is found again if the base has changed meanwhile. Same scene, same bytes.
+// its import, and the looks as changes to that. References are "#17 oak": the id in the base (new items follow in
+// order) and the name there, by which it is found again if the base has changed meanwhile. Same scene, same bytes.
 #pragma once
 
 #include "document/document.hpp"
@@ -15,6 +15,7 @@ struct ProjectContent {
     const scene::Scene& scene;
     const DataSources& sources;
     std::string_view unknown = {}; // of Document
+    const Looks* looks = nullptr;
     const std::map<std::string, std::string>* note = nullptr;
 };
 

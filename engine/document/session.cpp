@@ -2,6 +2,7 @@
 #include "document/session.hpp"
 
 #include "base/file.hpp"
+#include "document/looks.hpp"
 #include "document/project.hpp"
 #include "io/material_tables.hpp"
 #include "scene/bounds.hpp"
@@ -51,6 +52,7 @@ void Session::adopt(Document document) {
     base_ = std::move(document.base);
     sources_ = std::move(document.sources);
     unknown_ = std::move(document.unknown);
+    history_.begin_beside(std::move(document.looks));
 }
 
 void Session::adopt_recovered(Document document) {
@@ -78,6 +80,19 @@ Result<bool> Session::edit(Result<Edit> edit, std::string_view gesture) {
     if (!edit) return tl::unexpected<Error>(std::move(edit.error()));
     RESTAGE_CHECK(check_edit(*edit));
     return history_.push(scene_, std::move(*edit), gesture);
+}
+
+const Looks& Session::looks() const {
+    static const Looks none;
+    const auto* looks = static_cast<const Looks*>(history_.beside().get());
+    return looks ? *looks : none;
+}
+
+Result<> Session::change_looks(Looks looks, std::string label, Edit edit) {
+    RESTAGE_CHECK(check_edit(edit));
+    edit.label = std::move(label);
+    history_.push_beside(scene_, std::move(edit), std::make_shared<const Looks>(std::move(looks)));
+    return {};
 }
 
 Result<std::vector<Id<Instance>>> Session::duplicate(Instances ids, const glm::dmat4& move) {
@@ -166,14 +181,17 @@ Result<> Session::save_project(const std::string& path) {
     const std::filesystem::path place = std::filesystem::absolute(path).lexically_normal();
     RESTAGE_CHECK(write_file_atomic(
         place,
-        project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_}, place.parent_path())));
+        project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_, .looks = &looks()},
+                     place.parent_path())));
     path_ = place.string();
     history_.mark_clean();
     return {};
 }
 
 std::string Session::recovery_text(const std::map<std::string, std::string>& note) const {
-    return project_text({.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_, .note = &note}, {});
+    return project_text(
+        {.base = base_, .scene = scene_, .sources = sources_, .unknown = unknown_, .looks = &looks(), .note = &note},
+        {});
 }
 
 } // namespace restage::document

@@ -52,6 +52,9 @@ class Session {
     // The only way to change the scene. True if it changed. `gesture`: see scene::History. Refused: what builders in
     // scene/edits.hpp refuse, and values that scene::check_edit rejects.
     Result<bool> edit(Result<scene::Edit>, std::string_view gesture = {});
+    // Its looks: see looks.hpp, whose functions change them. With the change of the scene, if any, one undo step.
+    const Looks& looks() const;
+    Result<> change_looks(Looks, std::string label, scene::Edit = {});
     void end_gesture() { history_.end_gesture(); }
     bool cancel_gesture() { return history_.cancel_gesture(scene_); } // see scene::History
     bool undo() { return history_.undo(scene_); }

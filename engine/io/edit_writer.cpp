@@ -5,6 +5,7 @@
 #include "io/run_action.hpp"
 #include "io/scene_writer_calls.hpp"
 #include "plugin/abi.hpp"
+#include "scene/difference.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
@@ -267,21 +268,7 @@ std::uint64_t EditWriter::late() const { return stopped_at_ == 0 ? 0 : changes()
 
 Result<Edit> EditWriter::finish(Jobs& jobs, std::string label) {
     read_images(jobs, base_.clock);
-    Edit edit{std::move(label), {}};
-    each_kind([&]<class T>(const Kind<T>& kind) {
-        (scene.*kind.table).each_changed(base_.clock, [&](Id<T> id, const T* after) {
-            const T* before = (base_.*kind.table).find(id);
-            if (before && after && *before == *after) return;
-            Change<T> change{id, {}, {}};
-            if (before) change.before = *before;
-            if (after) change.after = *after;
-            edit.changes.push_back(std::move(change));
-        });
-    });
-    each_single([&]<class T>(const Single<T>& single) {
-        const auto &before = (base_.*single.one).value, &after = (scene.*single.one).value;
-        if (!(before == after)) edit.changes.push_back(ChangeOne<T>{before, after});
-    });
+    Edit edit = difference(base_, scene, std::move(label));
     if (edit.changes.empty()) return edit;
     RESTAGE_CHECK(check_edit(edit));
     if (const std::string problem = new_error(base_, scene); !problem.empty()) return fail(problem);

@@ -182,13 +182,29 @@ bool History::push(Scene& scene, Edit edit, std::string_view gesture) {
         entries_.resize(position_);
         clean_before_ = clean_;
     }
+    append(hold(std::move(edit)));
+    gesture_ = gesture;
+    return true;
+}
+
+void History::push_beside(Scene& scene, Edit edit, Beside beside) {
+    drop_idle_changes(edit);
+    ++scene.clock; // also if only what is beside it changes
+    apply(scene, edit);
+    end_gesture();
+    Entry entry = hold(std::move(edit));
+    entry.replaces = true;
+    entry.before = std::exchange(beside_, beside);
+    entry.after = std::move(beside);
+    append(std::move(entry));
+}
+
+void History::append(Entry entry) {
     forget(entries_.begin() + std::ptrdiff_t(position_), entries_.end());
     if (clean_ && *clean_ > position_) clean_.reset();
-    entries_.push_back(hold(std::move(edit)));
+    entries_.push_back(std::move(entry));
     ++position_;
-    gesture_ = gesture;
     hold_to_budget();
-    return true;
 }
 
 void History::end_gesture() {
@@ -214,14 +230,20 @@ bool History::cancel_gesture(Scene& scene) {
 bool History::undo(Scene& scene) {
     end_gesture();
     if (position_ == 0) return false;
-    apply(scene, inverse(entries_[--position_].edit));
+    const Entry& entry = entries_[--position_];
+    ++scene.clock;
+    apply(scene, inverse(entry.edit));
+    if (entry.replaces) beside_ = entry.before;
     return true;
 }
 
 bool History::redo(Scene& scene) {
     end_gesture();
     if (position_ == entries_.size()) return false;
-    apply(scene, entries_[position_++].edit);
+    const Entry& entry = entries_[position_++];
+    ++scene.clock;
+    apply(scene, entry.edit);
+    if (entry.replaces) beside_ = entry.after;
     return true;
 }
 

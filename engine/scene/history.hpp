@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace restage::scene {
@@ -25,6 +26,12 @@ class History {
     // Applies the edit and records it; clears redo. An edit that changes nothing is not recorded.
     // `gesture`: if not empty, merge with the entry of the same running gesture. True if the scene changed.
     bool push(Scene&, Edit edit, std::string_view gesture = {});
+    // Likewise for an edit, perhaps an empty one, that also replaces what the document holds beside the scene: a value
+    // that never changes, for example its looks. Its memory does not count.
+    using Beside = std::shared_ptr<const void>;
+    void push_beside(Scene&, Edit edit, Beside beside);
+    const Beside& beside() const { return beside_; } // at this position
+    void begin_beside(Beside beside) { beside_ = std::move(beside); } // of a document just opened
     void end_gesture();
     // Reverts the running gesture and forgets it: position, entries and redo are as they
     // were before it began. True if the scene changed.
@@ -59,11 +66,14 @@ class History {
     struct Entry {
         Edit edit;
         std::size_t bytes = 0; // without shared data
+        bool replaces = false; // what is beside the scene
+        Beside before = nullptr, after = nullptr;
     };
     Entry hold(Edit);
     void count_shared(const Edit&, int sign);
     void forget(std::vector<Entry>::iterator first, std::vector<Entry>::iterator last); // in entries_
     void hold_to_budget();
+    void append(Entry);
 
     std::vector<Entry> entries_;
     std::size_t position_ = 0;
@@ -71,6 +81,7 @@ class History {
     std::string gesture_; // key of the running gesture; its entry is entries_[position_ - 1]
     std::vector<Entry> redo_before_; // redo entries from when the running gesture began
     std::optional<std::size_t> clean_before_; // likewise clean_
+    Beside beside_;
     std::map<const void*, Shared> shared_;
     std::size_t budget_ = default_budget, own_bytes_ = 0, dropped_ = 0; // own_bytes_: of all entries, and redo_before_
 };

@@ -33,5 +33,6 @@ NB_MODULE(_core, m) {
     bind_actions(m, session);
     bind_render(m, session);
     bind_sky(session);
+    bind_looks(session);
     bind_bsdf(m);
 }

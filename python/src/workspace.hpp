@@ -150,6 +150,7 @@ void bind_geometry(nb::class_<Workspace>&, nb::class_<Handle<scene::Instance>>&)
 void bind_actions(nb::module_&, nb::class_<Workspace>&);
 void bind_render(nb::module_&, nb::class_<Workspace>&);
 void bind_sky(nb::class_<Workspace>&); // those of plugins
+void bind_looks(nb::class_<Workspace>&);
 void bind_bsdf(nb::module_&);
 
 } // namespace restage::python

@@ -459,3 +459,42 @@ def test_a_clamp_of_the_scene_is_switched_off_by_0(tmp_path):
     assert means[1] < 0.95 * means[0] and means[2:] == pytest.approx([means[0]] * 2, rel=1e-5)
     done = restage("render", CORNELL, "-o", tmp_path / "x.exr", "--reference", "--clamp-direct", 1)
     assert done.returncode == 2 and "--clamp-direct excludes --reference" in done.stderr
+
+
+def test_the_looks_of_a_project_are_listed_and_rendered(tmp_path):
+    project = tmp_path / "looks.restage"
+    project.write_text(json.dumps({
+        "restage": 1, "base": {"file": str(CORNELL), "format": "pbrt"},
+        "looks": [{"name": "plain", "current": True}, {"name": "dark/blue", "film": {"exposure": 0.25}}]}))
+    info = restage("info", project)
+    assert 'looks       "plain" (current), "dark/blue"' in info.stdout
+    assert json.loads(restage("info", project, "--json").stdout)["looks"][1] == {"name": "dark/blue", "current": False}
+    some = ["--spp", 1, "--size", "16x16"]
+    done = restage("render", project, "--look", "all", "-o", tmp_path / "{look}.pfm", *some)
+    assert done.returncode == 0, done.stderr
+    assert sorted(p.name for p in tmp_path.glob("*.pfm")) == ["dark_blue.pfm", "plain.pfm"]
+    plain, dark = ((tmp_path / name).read_bytes()[-16 * 16 * 12:] for name in ("plain.pfm", "dark_blue.pfm"))
+    ratio = np.frombuffer(dark, np.float32).sum() / np.frombuffer(plain, np.float32).sum()
+    assert abs(ratio - 0.25) < 1e-5
+    both = restage("render", project, "--look", "all", "-o", tmp_path / "x.pfm", *some)
+    assert both.returncode == 1 and "x.pfm would be written twice; put {look} in the name" in both.stderr
+    none = restage("render", project, "--look", "plane", "-o", tmp_path / "x.pfm", *some)
+    assert none.returncode == 1 and '--look plane: no such look; known: "plain", "dark/blue"' in none.stderr
+    one = restage("render", CORNELL, "--look", "all", "-o", tmp_path / "x.pfm", *some)
+    assert one.returncode == 1 and "known: none" in one.stderr
+    assert not (tmp_path / "x.pfm").exists()
+
+
+def test_a_turntable_turns_the_camera_once_around_the_scene(tmp_path):
+    scene = tmp_path / "two.pbrt"  # a red ball at the left of the picture, a blue one at the right
+    ball = 'AttributeBegin Translate {} 0 0 AreaLightSource "diffuse" "rgb L" [{}] Shape "sphere" "float radius" 0.5 AttributeEnd\n'
+    scene.write_text('LookAt 0 0 -6  0 0 0  0 1 0\nCamera "perspective" "float fov" 40\nWorldBegin\n' + ball.format(-1, "1 0 0") + ball.format(1, "0 0 1"))
+    some = ["--spp", 1, "--size", "32x32", "--turntable"]
+    done = restage("render", scene, "-o", tmp_path / "turn.##.pfm", *some, 2)
+    assert done.returncode == 0, done.stderr
+    pixels = [np.frombuffer((tmp_path / f"turn.0{n}.pfm").read_bytes()[-32 * 32 * 12:], np.float32).reshape(32, 32, 3) for n in (1, 2)]
+    left = [p[:, :16].sum(axis=(0, 1)) for p in pixels]
+    assert left[0][2 if left[0][0] == 0 else 0] == 0 and left[0].sum() > 1  # one ball only
+    assert np.allclose(left[0][[2, 1, 0]], left[1], rtol=0.2)  # half a turn: the other one
+    wrong = restage("render", scene, "-o", tmp_path / "turn.pfm", *some, 2)
+    assert wrong.returncode == 1 and "put #### in the name" in wrong.stderr

@@ -335,6 +335,32 @@ def history(s):
 
 
 @state
+def looks(s):
+    s.stop()
+    s.start(DEMO)
+    s.tab("Looks")
+    for name in ("Chair frame", "Floor"):
+        s.editor.click("look.new")
+        s.select(name)
+        s.editor.key("h")
+    s.editor.click("look.new")
+    time.sleep(12)
+    s.rest()
+
+
+@state
+def looks_compared(s):
+    looks(s)
+    s.editor.click("look.Look 1")
+    s.editor.settled(samples=4, seconds=240)
+    s.editor.click("look.keep")
+    s.editor.click("look.Look 3")
+    s.editor.settled(samples=4, seconds=240)
+    s.editor.click("kept.wipe")
+    s.rest()
+
+
+@state
 def assets(s):
     s.start(DEMO)
     s.tab("Assets")

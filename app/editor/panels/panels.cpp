@@ -22,6 +22,7 @@ constexpr auto panels = std::to_array<Panel>({
     {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and rendering"},
     {"Arrange", give<draw_arrange>, Dock::right, false, "Align, distribute, mirror, repeat and replace the selection"},
     {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
+    {"Looks", give<draw_looks>, Dock::bottom, true, "Named variations of the scene, and pictures to compare"},
     {"Import report", give<draw_import_report>, Dock::bottom, true,
      "What was kept, approximated or dropped on opening"},
     {"Convergence", give<draw_convergence>, Dock::bottom, true, "Estimated error against time and samples"},

@@ -24,6 +24,7 @@ void draw_statistics(DocumentContext& editor, const PictureView& picture);
 void draw_plugins(DocumentContext& editor);
 void draw_log(PanelUi& editor);
 void draw_history(EditContext& editor);
+void draw_looks(SelectContext& editor, PictureView& picture);
 void draw_assets(SelectContext& editor);
 void draw_materials(SelectContext& editor);
 void draw_help(PanelUi& editor, PictureView& picture);

@@ -7,7 +7,9 @@
 #include "check/step.hpp"
 #include "finding_things.hpp"
 #include "image_loads.hpp"
+#include "kept_pictures.hpp"
 #include "library.hpp"
+#include "look_pictures.hpp"
 #include "material_balls.hpp"
 #include "palette.hpp"
 #include "scene/statistics.hpp"
@@ -108,6 +110,20 @@ struct ConvergenceState {
     bool against_samples = false;
 };
 
+struct LooksState {
+    explicit LooksState(const std::function<void()>& wake) : pictures(wake) {}
+    LookPictures pictures;
+    std::optional<std::size_t> renaming; // index of the look
+    std::string new_name;
+    bool focus_name = false;
+    struct Seen { // for which `differs` holds
+        scene::Version version = 0;
+        std::uint64_t view = 0, document = 0;
+        bool operator==(const Seen&) const = default;
+    } seen;
+    std::string differs; // from the current look; "" = nothing, or there is none
+};
+
 struct PluginState { // actions and panels of plugins
     std::map<std::string, scene::ParamSet> asked; // of an action's dialog, from its last use
     std::map<std::string, scene::ParamSet> panels, remembered; // of each panel; `remembered` is the stored version
@@ -125,10 +141,14 @@ struct ImportState { // options of importers in the file browser
 struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings not to repeat each frame
-    explicit PanelState(const std::function<void()>& wake) : loads(wake), balls(wake), skies(wake), things(wake) {}
+    explicit PanelState(const std::function<void()>& wake)
+        : loads(wake), balls(wake), looks(wake), skies(wake), things(wake) {}
     // For a closed scene.
     void forget_document() {
         balls.forget();
+        looks.pictures.forget();
+        looks.seen = {};
+        kept.forget();
         skies.stop();
         things.stop();
         inspector = {};
@@ -146,6 +166,8 @@ struct PanelState {
     ImageLoads loads;
     MaterialBalls balls;
     LibraryState library;
+    LooksState looks;
+    KeptPictures kept;
     SkyMaking skies;
     FindingThings things;
     InspectorState inspector;

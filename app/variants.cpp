@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "variants.hpp"
+
+#include "frames.hpp"
+#include "query/navigation.hpp"
+#include "scene/bounds.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+
+namespace restage::app {
+
+namespace {
+
+constexpr std::string_view all = "all";
+
+std::string file_word(std::string name) {
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < 0x20 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos)
+            c = '_';
+    return name;
+}
+
+void replace(std::string& text, std::string_view what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+}
+
+Result<std::vector<std::string>> look_names(const document::Looks& looks, const std::string& wanted) {
+    if (wanted.empty()) return std::vector<std::string>{""};
+    std::vector<std::string> names;
+    std::string known;
+    for (const document::Look& look : looks.list) {
+        if (look.name == wanted) return std::vector<std::string>{wanted};
+        names.push_back(look.name);
+        known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", look.name);
+    }
+    if (wanted == all && !names.empty()) return names;
+    return fail(fmt::format("--look {}: no such look; known: {}", wanted, known.empty() ? "none" : known));
+}
+
+} // namespace
+
+Result<std::vector<Variant>> variants(const scene::Scene& scene, const document::Looks& looks, const std::string& look,
+                                      const std::string& camera, std::uint32_t frames) {
+    RESTAGE_TRY(const auto names, look_names(looks, look));
+    std::vector<std::string> cameras;
+    if (camera == all && !scene::find_by_name<scene::Camera>(scene, all)) {
+        int number = 0; // names may not be unique
+        scene.cameras.each([&](auto, const auto&) { cameras.push_back(std::to_string(++number)); });
+    }
+    if (cameras.empty()) cameras.push_back(camera);
+    std::vector<Variant> list;
+    for (const std::string& name : names)
+        for (const std::string& one : cameras)
+            for (std::uint32_t frame = std::min(frames, 1u); frame <= frames; ++frame)
+                list.push_back({name, one, frame, frames ? 360.0 * (frame - 1) / frames : 0});
+    return list;
+}
+
+void turn_camera(scene::Scene& scene, double degrees) {
+    const auto id = scene.active_camera.value;
+    const scene::Camera* camera = scene.cameras.find(id);
+    const scene::Bounds bounds = scene::world_bounds(scene);
+    if (!camera || bounds.empty() || degrees == 0) return;
+    const glm::dvec3 eye(camera->camera_to_world[3]), ahead = glm::normalize(glm::dvec3(camera->camera_to_world[2]));
+    const double distance = glm::dot(bounds.center() - eye, ahead);
+    const glm::dvec3 center = distance > 0 ? eye + distance * ahead : bounds.center();
+    const glm::dmat4 turn = glm::rotate(glm::translate(glm::dmat4(1), center), glm::radians(degrees),
+                                        glm::normalize(query::guess_up(*camera)));
+    scene::Camera turned = *camera;
+    turned.camera_to_world = turn * glm::translate(glm::dmat4(1), -center) * camera->camera_to_world;
+    scene.cameras.set(id, std::move(turned), ++scene.clock);
+}
+
+std::string variant_path(std::string pattern, const Variant& variant) {
+    replace(pattern, "{look}", file_word(variant.look));
+    replace(pattern, "{camera}", file_word(variant.camera));
+    return variant.frame > 0 ? frame_path(pattern, variant.frame) : pattern;
+}
+
+Result<> check_variant_paths(const std::string& pattern, const std::vector<Variant>& variants) {
+    std::map<std::string, const Variant*> made;
+    for (const Variant& variant : variants)
+        if (const auto [other, fresh] = made.emplace(variant_path(pattern, variant), &variant); !fresh)
+            return fail(fmt::format("{} would be written twice; put {} in the name", other->first,
+                                    other->second->look != variant.look       ? "{look}"
+                                    : other->second->camera != variant.camera ? "{camera}"
+                                                                              : "####"));
+    return {};
+}
+
+} // namespace restage::app
