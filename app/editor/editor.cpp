@@ -286,13 +286,14 @@ void Editor::refresh_picture() {
                        .size = picture_size_,
                        .document = document_,
                        .original = show_original && original_,
+                       .lights = panel_state->lights.version(),
                        .samples = view.samples ? view.samples : settings.samples,
                        .seconds = view.seconds,
                        .error = view.error,
                        .paused = files_->jobs.picture_paused()};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
-    scene::Scene shown = scene();
+    scene::Scene shown = panel_state->lights.follow(scene(), registry_);
     if (wanted.original) {
         // The camera stays where it is, so that the two can be compared.
         shown = *original_;

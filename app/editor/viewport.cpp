@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewport.hpp"
 
+#include "exposure_legend.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "panels/panels.hpp"
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/development.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 
@@ -75,6 +77,7 @@ void Viewport::draw(PanelContext& e) {
     // The scene as it was opened, while O is held.
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_status(e);
+    if (e.view.display.layer == view::exposure_layer) draw_exposure_legend(e, corner, size);
     draw_progress(e);
     draw_darkness(e);
     draw_hint(e);
@@ -108,12 +111,12 @@ void Viewport::update_textures(PanelContext& e) {
     }
     view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
-    if (frame->clay && settings.layer == view::picture_layer) settings = {};
-    const auto same = [](const view::DisplaySettings& a, const view::DisplaySettings& b) {
-        return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
-    };
-    if (frame != drawn_ || !same(settings, drawn_settings_)) {
+    settings.development = scene::development_of(e.scene());
+    if (frame->clay && (settings.layer == view::picture_layer || settings.layer == view::exposure_layer)) settings = {};
+    if (frame != drawn_ || settings != drawn_settings_) {
         view::to_display(frame->image, settings, pixels_);
+        if (settings.development.backdrop == scene::Backdrop::transparent)
+            view::over_checkers(frame->image.width, pixels_);
         picture_.set(frame->image.width, frame->image.height, pixels_);
         drawn_ = frame;
         drawn_settings_ = settings;

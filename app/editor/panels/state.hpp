@@ -8,6 +8,7 @@
 #include "material_balls.hpp"
 #include "selection.hpp"
 #include "sky_making.hpp"
+#include "view/light_board.hpp"
 
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -124,6 +125,7 @@ struct PanelState {
         convergence.current = {};
         convergence.previous = {};
         history_seen = 0;
+        lights.forget();
         plugins.asked.clear(); // may refer to its things
     }
 
@@ -133,6 +135,7 @@ struct PanelState {
     InspectorState inspector;
     OutlinerState outliner;
     SceneState scene;
+    view::LightBoard lights; // of the live picture
     ReportState report;
     LogState log;
     ConvergenceState convergence;
