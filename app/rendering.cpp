@@ -9,6 +9,7 @@
 #include "progress.hpp"
 #include "render/film_error.hpp"
 #include "render/tracers.hpp"
+#include "scene/development.hpp"
 #include "scene/tables.hpp"
 #include "scene/techniques.hpp"
 
@@ -336,6 +337,8 @@ Result<Picture> take_picture(Context& context, const RenderOptions& o, const sce
     Picture picture;
     picture.film = renderer.image();
     picture.exposure = scene.film.value.exposure;
+    picture.development = scene::development_of(scene);
+    picture.window = scene.film.value.crop;
     RESTAGE_CHECK(denoise_picture(context, o, picture));
     return picture;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // restage merge A.exr B.exr ... -o OUT: combines separately rendered parts of one picture.
 #include "commands.hpp"
+#include "developing.hpp"
 #include "render/film_error.hpp"
 #include "rendering.hpp"
 #include "standard_streams.hpp"
@@ -18,6 +19,7 @@ struct Options {
     std::string output;
     RenderOptions denoising;
     PictureOptions picture;
+    DevelopmentOptions development;
 };
 
 Result<int> run(Context& context, Options& o) {
@@ -29,7 +31,7 @@ Result<int> run(Context& context, Options& o) {
     }
     auto merged = view::merge_pictures(parts);
     if (!merged) return fail(fmt::format("{}", fmt::join(o.parts, ", ")), merged.error());
-    Picture picture{.film = std::move(merged->film), .denoised = {}};
+    Picture picture{.film = std::move(merged->film), .denoised = {}, .development = o.development.over({})};
     RESTAGE_CHECK(denoise_picture(context, o.denoising, picture));
     o.picture.metadata = std::move(merged->metadata);
     o.picture.metadata["restage:denoiser"] = picture.denoiser;
@@ -62,6 +64,7 @@ void add_merge(CLI::App& program, Context& context) {
                         "Restage); implies --denoise");
     command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops] (default: 0)")
         ->check(CLI::Range(-64.f, 64.f));
+    add_development_options(*command, o->development, "srgb");
     add_example(*command, "restage merge part1.exr part2.exr -o whole.exr");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }

@@ -3,12 +3,14 @@
 #include "base/file.hpp"
 #include "base/version.hpp"
 #include "commands.hpp"
+#include "developing.hpp"
 #include "document/assign.hpp"
 #include "frames.hpp"
 #include "import_options.hpp"
 #include "progress.hpp"
 #include "render/film_error.hpp"
 #include "rendering.hpp"
+#include "scene/development.hpp"
 #include "scene/projection.hpp"
 #include "scene/validate.hpp"
 #include "standard_streams.hpp"
@@ -42,6 +44,7 @@ struct Options : RenderOptions {
     std::vector<float> crop;           // x0 x1 y0 y1, fractions of the film
     std::vector<std::uint32_t> region; // x y width height [pixel]
     PictureOptions picture;
+    DevelopmentOptions development;
 };
 
 // The part of the film to render. The fractions are such that Renderer's rounding yields exactly these pixels.
@@ -123,6 +126,7 @@ Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as c
     if (!o.camera.empty()) changes += " --camera " + o.camera;
     if (o.turn != 0) changes += fmt::format(" turned by {} degrees", o.turn);
     if (o.studio) changes += " --studio";
+    if (!o.development.background.empty()) changes += " --background"; // the sky is hidden
     return {{"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
             {"restage:changes", changes},
             {"restage:strategy", o.strategy},
@@ -197,6 +201,7 @@ Result<int> render_scene(Context& context, Options o, scene::Scene scene, Render
     RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
     turn_camera(scene, o.turn);
+    RESTAGE_CHECK(apply_background(o.development, scene));
     RESTAGE_CHECK(apply_crop(o, scene));
     std::optional<view::StoredPicture> before;
     if (!o.resume.empty()) {
@@ -215,7 +220,12 @@ Result<int> render_scene(Context& context, Options o, scene::Scene scene, Render
     RESTAGE_CHECK(render_to_target(context, o, scene, *renderer, "", &spent));
     if (before && renderer->samples() == 0) return interrupt_exit_code(); // the resumed file is unchanged
     o.picture.metadata = metadata_of(o, *renderer, scene);
-    Picture picture{.film = renderer->image(), .denoised = {}, .exposure = scene.film.value.exposure};
+    const scene::Film& film = scene.film.value;
+    Picture picture{.film = renderer->image(),
+                    .denoised = {},
+                    .exposure = film.exposure,
+                    .development = o.development.over(scene::development_of(scene)),
+                    .window = film.crop};
     if (before) RESTAGE_CHECK(add_to(*before, picture, o.picture.metadata, o.first_sample, o.renderer.seed));
     spent.denoising = -cpu_seconds();
     RESTAGE_CHECK(denoise_picture(context, o, picture));
@@ -400,6 +410,8 @@ void add_render(CLI::App& program, Context& context) {
     command->add_option("--exposure", o->picture.exposure_stops, "Brighten a .png or .jpg [stops]")
         ->check(CLI::Range(-64.f, 64.f))
         ->capture_default_str();
+    add_background_option(*command, o->development);
+    add_development_options(*command, o->development, "the project's, or srgb");
     add_example(*command, "restage render room.pbrt -o room.exr -o room.png --spp 256 --denoise");
     command->callback([&context, o] { context.choose([&context, o] { return run(context, *o); }); });
 }

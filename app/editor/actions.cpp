@@ -10,6 +10,7 @@
 #include "io/material_emission.hpp"
 #include "kept_pictures.hpp"
 #include "looks.hpp"
+#include "panels/light_buttons.hpp"
 #include "panels/outliner.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
@@ -182,6 +183,11 @@ void select_all(Editor& e) {
         if (!instance.hidden && !e.locked.contains(id.value)) all.push_back(id);
     });
     e.selection.set(all);
+}
+
+bool shows_exposure(const PanelContext& e) { return e.view.display.layer == view::exposure_layer; }
+void toggle_exposure(Editor& e) {
+    e.view.display.layer = shows_exposure(e) ? view::picture_layer : view::exposure_layer;
 }
 
 // Actions that need only what panels can access.
@@ -374,6 +380,15 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.view.local_axes; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
      [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const PanelContext& e) { return e.view.denoise; }},
+    {"view.exposure", "False-colour exposure", ImGuiMod_Shift | ImGuiKey_E, 0,
+     "The picture's brightness in stops from middle grey, and what is cut off to black and white", has_scene,
+     toggle_exposure, shows_exposure},
+    {"view.solo_light", "Solo light", ImGuiMod_Shift | ImGuiKey_L, 0,
+     "In the view, only the selected lights shine; again: no longer. Files are not changed",
+     [](const PanelContext& e) { return can_solo(e); }, run<solo_selected>},
+    {"view.all_lights", "All lights", 0, 0, "Ends all muting and soloing of lights",
+     [](const PanelContext& e) { return e.panel_state->lights.any(); },
+     [](Editor& e) { e.panel_state->lights.clear(); }},
     {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const PanelContext& e) { return e.view.show_overlays; }},

@@ -294,6 +294,7 @@ void Editor::refresh_picture() {
                        .size = picture_size_,
                        .document = document_,
                        .original = show_original && original_,
+                       .lights = panel_state->lights.version(),
                        .samples = view.samples ? view.samples : settings.samples,
                        .seconds = view.seconds,
                        .error = view.error,
@@ -302,7 +303,7 @@ void Editor::refresh_picture() {
                        .trial = trial.number};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
-    scene::Scene shown = shown_scene_.follow(scene(), document_, trial);
+    scene::Scene shown = panel_state->lights.follow(shown_scene_.follow(scene(), document_, trial), registry_);
     if (wanted.original) {
         // The camera stays where it is, so that the two can be compared.
         shown = *original_;

@@ -74,6 +74,7 @@ class Editor final : public PanelContext {
         glm::uvec2 size{0};
         std::uint64_t document = 0;
         bool original = false;
+        std::uint64_t lights = 0; // view::LightBoard::version
         std::uint32_t samples = 0;
         double seconds = 0, error = 0;
         bool paused = false;

@@ -12,6 +12,7 @@
 #include "render/film_error.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
+#include "scene/development.hpp"
 #include "scene/edits.hpp"
 #include "view/picture.hpp"
 #include "widgets.hpp"
@@ -150,7 +151,12 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
     if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was cancelled");
     auto finished = std::make_shared<Finished>();
     view::Picture& picture = finished->picture;
-    picture = {.film = renderer->image(), .denoised = std::nullopt, .exposure = scene.film.value.exposure};
+    const scene::Film& film = scene.film.value;
+    picture = {.film = renderer->image(),
+               .denoised = std::nullopt,
+               .exposure = film.exposure,
+               .development = scene::development_of(scene),
+               .window = film.crop};
     std::string denoiser = "none";
     if (denoise) {
         job.keep_result(); // the render may have taken hours

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewport.hpp"
 
+#include "exposure_legend.hpp"
 #include "kept_pictures.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
@@ -8,6 +9,7 @@
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
+#include "scene/development.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 
@@ -80,6 +82,7 @@ void Viewport::draw(PanelContext& e) {
     e.show_original = over && ImGui::IsKeyDown(ImGuiKey_O) && !ImGui::GetIO().KeyShift && !ImGui::GetIO().KeyCtrl;
     draw_layer_note(e);
     draw_status(e);
+    if (e.view.display.layer == view::exposure_layer) draw_exposure_legend(e, corner, size);
     draw_progress(e);
     draw_darkness(e);
     draw_hint(e);
@@ -113,13 +116,13 @@ void Viewport::update_textures(PanelContext& e) {
     }
     view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
+    settings.development = scene::development_of(e.scene());
     if (view::look_of(settings.layer) && !frame->look) settings.layer = view::picture_layer; // until it is there
-    if (frame->clay && settings.layer == view::picture_layer) settings = {};
-    const auto same = [](const view::DisplaySettings& a, const view::DisplaySettings& b) {
-        return a.layer == b.layer && a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
-    };
-    if (frame != drawn_ || !same(settings, drawn_settings_)) {
+    if (frame->clay && (settings.layer == view::picture_layer || settings.layer == view::exposure_layer)) settings = {};
+    if (frame != drawn_ || settings != drawn_settings_) {
         scale_ = view::to_display(frame->image, settings, pixels_, frame->counts);
+        if (settings.development.backdrop == scene::Backdrop::transparent)
+            view::over_checkers(frame->image.width, pixels_);
         picture_.set(frame->image.width, frame->image.height, pixels_);
         drawn_ = frame;
         drawn_settings_ = settings;

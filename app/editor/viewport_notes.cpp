@@ -4,7 +4,9 @@
 #include "files.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
+#include "panels/scene_development.hpp"
 #include "panels/scene_panel.hpp"
+#include "panels/state.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
@@ -96,13 +98,10 @@ void Viewport::draw_toolbar(PanelContext& e) {
     ImGui::DragFloat("##exposure", &e.view.display.exposure, 0.02f, -10, 10, "%+.1f EV");
     tip("Exposure of the view, in stops: +1 is twice as bright. Does not change files. Ctrl+click to type");
     e.mark("toolbar.exposure");
-    static constexpr const char* tones[] = {"Standard", "Filmic"};
-    int tone = int(e.view.display.tone);
-    if (combo("##tone", tone, tones, 88,
-              "The tone curve. Standard: as in a saved PNG (sRGB), clipped to white. Filmic: "
-              "softer highlights",
-              "toolbar.tone"))
-        e.view.display.tone = view::ToneCurve(tone);
+    scene::Development development = e.scene().film.value.development;
+    next(88 * scale);
+    ImGui::SetNextItemWidth(88 * scale);
+    if (tone_combo(e, development, "toolbar.tone")) ask_development(e, development, "Tone curve");
 }
 
 // For the shown picture, not for the one being rendered.
@@ -141,7 +140,8 @@ void Viewport::draw_status(PanelContext& e) {
     if (status.state == view::ViewState::failed)
         text = status.text;
     else if (drawn_ && !drawn_->clay)
-        text = picture_note(*drawn_, status.compiling, e.views.now().has_value());
+        text = picture_note(*drawn_, status.compiling, e.views.now().has_value()) +
+               (e.panel_state->lights.any() ? "\nSome lights are muted in the view" : "");
     if (const std::string selected = selection_note(e); !selected.empty() && status.state != view::ViewState::failed)
         text = selected + (text.empty() ? "" : "\n") + text;
     if (!text.empty() && (e.view.show_overlays || status.state == view::ViewState::failed)) {

@@ -4,10 +4,10 @@
 #include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
-#include "io/image_file.hpp"
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
 #include "saving.hpp"
+#include "scene/development.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 #include "view/picture.hpp"
@@ -125,7 +125,11 @@ void start_export(PanelContext& e, const fs::path& path, io::ExportOptions optio
 std::optional<view::Picture> live_picture(const PanelContext& e) {
     const auto raw = e.live().frame(), clean = e.live().denoised();
     if (!raw || raw->document != e.document()) return std::nullopt;
-    view::Picture picture{.film = raw->image, .denoised = std::nullopt, .exposure = e.scene().film.value.exposure};
+    const scene::Film& film = e.scene().film.value;
+    view::Picture picture{.film = raw->image,
+                          .denoised = std::nullopt,
+                          .exposure = film.exposure,
+                          .development = scene::development_of(e.scene())};
     if (clean && clean->request == raw->request && clean->image.width == raw->image.width &&
         clean->image.height == raw->image.height)
         picture.denoised = clean->image.color;
@@ -137,12 +141,7 @@ Result<void> write_as_seen(const fs::path& path, const render::FilmImage& image,
                            const std::vector<std::uint32_t>& counts) {
     std::vector<std::uint32_t> rgba;
     view::to_display(image, settings, rgba, counts);
-    scene::PixelData pixels{.width = image.width, .height = image.height, .channels = 3, .values = {}};
-    pixels.values.reserve(rgba.size() * 3);
-    for (const std::uint32_t p : rgba)
-        for (int shift = 0; shift < 24; shift += 8)
-            pixels.values.push_back(io::srgb_to_linear(float(p >> shift & 255) / 255));
-    return io::write_png(path.string(), pixels);
+    return view::write_rgba(path.string(), image.width, image.height, rgba);
 }
 
 } // namespace
@@ -234,7 +233,7 @@ void save_image_dialog(PanelContext& e) {
         }
         if (state->format == 0) {
             ImGui::Checkbox("As seen", &state->as_seen);
-            tip("With the exposure, tone curve and layer of the view. Off: clipped sRGB at the scene's own exposure");
+            tip("With the exposure and layer of the view. Off: the picture at the scene's own exposure");
         }
         ImGui::Checkbox("Denoised", &state->denoised);
         tip(state->format == 1 ? "The raw picture is an additional layer" : "Off: noisy");
@@ -261,8 +260,10 @@ void save_image_dialog(PanelContext& e) {
                                 if (!state->denoised) shot->denoised.reset();
                                 view::DisplaySettings settings = ed.view.display;
                                 settings.scale = shot->exposure;
+                                settings.development = shot->development;
                                 const bool seen = state->as_seen && place.extension() == ".png";
-                                if (seen && shot->denoised && settings.layer == view::picture_layer)
+                                if (seen && shot->denoised &&
+                                    (settings.layer == view::picture_layer || settings.layer == view::exposure_layer))
                                     shot->film.color = *shot->denoised;
                                 const auto shown = ed.shown_frame();
                                 if (seen && shown && shown->look) shot->film = shown->image;

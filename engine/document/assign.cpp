@@ -4,10 +4,12 @@
 #include "document/sky.hpp"
 #include "io/sky.hpp"
 #include "query/navigation.hpp"
+#include "scene/development.hpp"
 #include "scene/sky.hpp"
 #include "scene/validate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -235,8 +237,23 @@ Result<Edit> settings_edit(const Scene& scene, const Assignment& a) {
 
 Result<Edit> film_edit(const Scene& scene, const Assignment& a) {
     Film film = scene.film.value;
-    if (a.field != "exposure") return fail(a.who + ": the film has exposure; --size sets its size");
-    RESTAGE_TRY(film.exposure, number(a));
+    Development& d = film.development;
+    float* const value = a.field == "exposure"        ? &film.exposure
+                         : a.field == "white_balance" ? &d.temperature
+                         : a.field == "tint"          ? &d.tint
+                         : a.field == "vignette"      ? &d.vignette
+                         : a.field == "bloom"         ? &d.bloom
+                                                      : nullptr;
+    if (value) {
+        RESTAGE_TRY(*value, number(a));
+    } else if (a.field == "tone") {
+        const auto tone = find_tone(a.value);
+        if (!tone) return fail(fmt::format("{}: a tone is one of {}", a.who, fmt::join(tone_names, ", ")));
+        d.tone = *tone;
+    } else {
+        return fail(a.who +
+                    ": the film has exposure, tone, white_balance, tint, vignette and bloom; --size sets its size");
+    }
     return set_film(scene, std::move(film));
 }
 

@@ -3,6 +3,7 @@
 // called as v(name, field); v.path(name, file path), v.mesh(m) and v.image(i) for indirectly stored fields.
 #pragma once
 
+#include "scene/development.hpp"
 #include "scene/tables.hpp"
 #include "scene/techniques.hpp"
 
@@ -134,12 +135,23 @@ void fields(V& v, scene::Filter& f) {
     v("params", f.params);
 }
 template <class V>
+void fields(V& v, scene::Development& d) {
+    v("tone", d.tone);
+    v("temperature", d.temperature);
+    v("tint", d.tint);
+    v("vignette", d.vignette);
+    v("bloom", d.bloom);
+    v("backdrop", d.backdrop);
+    v("backdrop_color", d.backdrop_color);
+}
+template <class V>
 void fields(V& v, scene::Film& f) {
     v("width", f.width);
     v("height", f.height);
     v("crop", f.crop);
     v("filter", f.filter);
     v("exposure", f.exposure);
+    v("development", f.development);
     v("filename", f.filename);
 }
 template <class V>
@@ -202,6 +214,16 @@ template <>
 struct Names<scene::FilterKind> {
     static constexpr const char* list[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
     static constexpr int first = int(scene::FilterKind::box);
+};
+template <>
+struct Names<scene::ToneCurve> {
+    static constexpr auto list = scene::tone_names;
+    static constexpr int first = int(scene::ToneCurve::srgb);
+};
+template <>
+struct Names<scene::Backdrop> {
+    static constexpr auto list = scene::backdrop_names;
+    static constexpr int first = int(scene::Backdrop::black);
 };
 template <>
 struct Names<scene::Technique> {

@@ -147,6 +147,7 @@ FilmImage clay_picture(const GpuScene& scene, const EmbreeScene& embree, Jobs& j
                 image.color[i] = painter.color(ray, normal, pixel);
                 image.normal[i] = normal;
                 image.depth[i] = ray.tfar;
+                image.coverage[i] = 1;
                 image.instance_id[i] = instance.object_id;
                 if (const auto material = scene.resolve_material(ray.inst, ray.prim, {ray.u, ray.v});
                     material != MATERIAL_NOTHING)

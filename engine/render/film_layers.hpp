@@ -27,6 +27,7 @@ struct FilmImage {
     std::vector<glm::vec3> albedo; // [0,1], times the throughput of the mirrors and glasses
     std::vector<glm::vec3> normal; // world space, shading, mean over samples (not unit at edges)
     std::vector<float> depth; // mean distance of the first hit; 0 = none
+    std::vector<float> coverage; // the fraction of samples that hit something; less than 1 where the sky is
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = none
 
     static FilmImage blank(std::uint32_t width, std::uint32_t height); // all zeros
@@ -39,7 +40,7 @@ enum class LayerSource {
     mean, // of all samples' guides
     first, // of the first sample's guide
 };
-enum class LayerLook { hidden, light, reflectance, direction, distance, number }; // in the viewport
+enum class LayerLook { hidden, light, reflectance, direction, distance, fraction, number }; // in the viewport
 
 template <class V>
 struct FilmLayer {
@@ -130,6 +131,15 @@ inline constexpr std::tuple film_layers{
                      .look = LayerLook::distance,
                      .label = "Distance",
                      .doc = "float32 (H, W): mean distance of the first hit [scene units]; 0 = none."},
+    FilmLayer<float>{.values = &FilmImage::coverage,
+                     .name = "coverage",
+                     .in_file = "coverage",
+                     .channels = {"A"},
+                     .source = LayerSource::mean,
+                     .guide = [](const shared::GuidePixel& g) { return g.coverage; },
+                     .look = LayerLook::fraction,
+                     .label = "Coverage",
+                     .doc = "float32 (H, W): fraction of the samples that hit something, 0 to 1."},
     FilmLayer<std::uint32_t>{.values = &FilmImage::instance_id,
                              .name = "object_id",
                              .in_file = "id",

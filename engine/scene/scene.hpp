@@ -198,11 +198,36 @@ struct Filter {
     bool operator==(const Filter&) const = default;
 };
 
+enum class ToneCurve : std::uint8_t { // view/develop.hpp
+    srgb, // clipped
+    filmic,
+    agx,
+    neutral,
+};
+enum class Backdrop : std::uint8_t { // behind the picture, where camera rays meet neither a surface nor a visible sky
+    black,
+    color,
+    transparent,
+};
+inline constexpr float most_tint = 150;
+// How radiance becomes the 8 bits of a screen, .png or .jpg. Files of floats keep the radiance.
+struct Development {
+    ToneCurve tone = ToneCurve::srgb;
+    float temperature = 6504; // [K] of the light that is shown as white: white_balance() of color_temperature.hpp
+    float tint = 0; // of that light: > 0 greenish, < 0 pinkish; to most_tint
+    float vignette = 0; // to 1: squared tangent of the angle from which light reaches the corners, dimmed by cos^4
+    float bloom = 0; // to 1: the fraction of all light that lens and eye scatter
+    Backdrop backdrop = Backdrop::black;
+    glm::vec3 backdrop_color{1}; // as shown, linear sRGB in [0,1]: no tone curve changes it
+    bool operator==(const Development&) const = default;
+};
+
 struct Film {
     std::uint32_t width = 640, height = 360;
     glm::vec4 crop{0, 1, 0, 1}; // x0 x1 y0 y1
     Filter filter;
     float exposure = 1;
+    Development development;
     std::string filename;
     bool operator==(const Film&) const = default;
 };

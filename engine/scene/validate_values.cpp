@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Problems in an item's values, whether set by an importer, an edit builder or a script.
+#include "scene/color_temperature.hpp"
+#include "scene/development.hpp"
 #include "scene/edit.hpp"
 #include "scene/tables.hpp"
 #include "scene/validate.hpp"
@@ -244,6 +246,19 @@ std::vector<ValueProblem> value_problems(const Film& film) {
                                       f.kind == FilterKind::gaussian ? "sigma" : "tau", f.params.x));
     if (!finite(film.exposure) || film.exposure <= 0 || film.exposure > most_light)
         out.error("film", fmt::format("an exposure of {:g}; it must be a number above 0", film.exposure));
+    const Development& d = film.development;
+    const auto in = [&](const char* what, float value, double least, double most) {
+        if (double(value) >= least && double(value) <= most) return;
+        out.error("film", fmt::format("a {} of {:g}; it must be from {:g} to {:g}", what, value, least, most));
+    };
+    in("white balance", d.temperature, least_kelvin, most_kelvin);
+    in("tint", d.tint, -double(most_tint), double(most_tint));
+    in("vignette", d.vignette, 0, 1);
+    in("bloom", d.bloom, 0, 1);
+    const glm::vec3& behind = d.backdrop_color;
+    if (!(std::min({behind.x, behind.y, behind.z}) >= 0 && std::max({behind.x, behind.y, behind.z}) <= 1))
+        out.error("film", "a colour of the backdrop that is not from 0 to 1");
+    if (std::size_t(d.tone) >= tone_names.size()) out.error("film", "a tone curve that does not exist");
     return out.take();
 }
 

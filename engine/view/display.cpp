@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/display.hpp"
 
+#include "view/develop.hpp"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace restage::view {
@@ -12,36 +13,6 @@ namespace {
 
 constexpr std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
     return r | g << 8 | b << 16 | 0xff000000u;
-}
-
-// 8-bit values indexed by the upper 16 bits of a float, avoiding a power per pixel: 7 bits of mantissa are finer than
-// 8-bit sRGB needs below 1, except for the darkest steps.
-class Curve {
-  public:
-    explicit Curve(ToneCurve tone) : table_(0x8000) {
-        for (std::uint32_t i = 0; i < table_.size(); ++i) {
-            const float x = std::bit_cast<float>(i << 16 | 0x8000u);
-            table_[i] = std::isnan(x) ? 0 : encode(tone == ToneCurve::filmic ? filmic(x) : x);
-        }
-    }
-    std::uint32_t operator()(float x) const { return x > 0 ? table_[std::bit_cast<std::uint32_t>(x) >> 16] : 0; }
-
-  private:
-    static float filmic(float x) {
-        if (!std::isfinite(x)) return 1;
-        return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
-    }
-    static std::uint8_t encode(float x) { // IEC 61966-2-1
-        x = std::clamp(x, 0.f, 1.f);
-        const float y = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
-        return std::uint8_t(std::lround(y * 255));
-    }
-    std::vector<std::uint8_t> table_;
-};
-
-const Curve& curve(ToneCurve tone) {
-    static const Curve clipped(ToneCurve::srgb), soft(ToneCurve::filmic);
-    return tone == ToneCurve::filmic ? soft : clipped;
 }
 
 // A reproducible colour per number; 0 is black.
@@ -53,18 +24,16 @@ std::uint32_t id_color(std::uint32_t id) {
 
 using render::LayerLook;
 
-void show_color(std::span<const glm::vec3> colors, const Curve& tone, float scale, std::uint32_t* out) {
-    for (const glm::vec3& color : colors) {
-        const glm::vec3 c = color * scale;
-        *out++ = pack(tone(c.x), tone(c.y), tone(c.z));
-    }
-}
-
 void show_direction(std::span<const glm::vec3> directions, std::uint32_t* out) {
     for (const glm::vec3& direction : directions) {
         const glm::vec3 c = glm::clamp(direction * 0.5f + 0.5f, 0.f, 1.f) * 255.f;
         *out++ = pack(std::uint32_t(c.x), std::uint32_t(c.y), std::uint32_t(c.z));
     }
+}
+
+std::uint32_t grey(float fraction) {
+    const auto v = std::uint32_t(std::lround(std::clamp(fraction, 0.f, 1.f) * 255));
+    return pack(v, v, v);
 }
 
 Scale show_distance(std::span<const float> distances, std::uint32_t* out) { // near is bright
@@ -74,6 +43,10 @@ Scale show_distance(std::span<const float> distances, std::uint32_t* out) { // n
     for (const float z : distances)
         *out++ = z > 0 ? scale_color(1 - z / std::max(farthest, 1e-30f) * 0.95f) : pack(0, 0, 0);
     return {.dark = farthest / 0.95f, .bright = 0, .unit = " away"};
+}
+
+Developing developing(const DisplaySettings& s, const render::FilmImage& image) {
+    return {.how = s.development, .factor = s.scale * std::exp2(s.exposure), .coverage = image.coverage};
 }
 
 // Relative standard error of luminance, logarithmic from 1e-3 to 1.
@@ -110,10 +83,40 @@ const char* about(LayerLook look) {
     }
 }
 
+constexpr int most_stops = 5; // zones of brighter and darker light are the last ones
+constexpr std::array zones{
+    ExposureZone{"Black", 0xffa03c78}, ExposureZone{"-5", 0xff781e1e}, ExposureZone{"-4", 0xffb44628},
+    ExposureZone{"-3", 0xffdc7828},    ExposureZone{"-2", 0xffc8aa3c}, ExposureZone{"-1", 0xff8caa5a},
+    ExposureZone{"0", 0xff46b43c},     ExposureZone{"+1", 0xff50c8aa}, ExposureZone{"+2", 0xff46d2e6},
+    ExposureZone{"+3", 0xff3ca0f0},    ExposureZone{"+4", 0xff466ee6}, ExposureZone{"+5", 0xffaa96eb},
+    ExposureZone{"White", 0xff2828e6}};
+static_assert(zones.size() == 2 * most_stops + 3);
+
+void show_exposure(const render::FilmImage& image, const DisplaySettings& settings, std::uint32_t* out) {
+    Developing d = developing(settings, image);
+    d.coverage = {};
+    develop(image.color, image.width, image.height, d, out);
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        const std::uint32_t seen = out[i] & 0xffffff;
+        if (seen == 0) {
+            out[i] = zones.front().color;
+        } else if ((seen & 0xff) == 0xff || (seen & 0xff00) == 0xff00 || (seen & 0xff0000) == 0xff0000) {
+            out[i] = zones.back().color;
+        } else {
+            const float light = glm::dot(image.color[i], glm::vec3(0.2126f, 0.7152f, 0.0722f)) * d.factor;
+            const float stops =
+                std::clamp(std::log2(std::max(light, 1e-30f) / 0.18f), -float(most_stops), float(most_stops));
+            out[i] = zones[std::size_t(std::lround(stops) + most_stops + 1)].color;
+        }
+    }
+}
+
 } // namespace
 
 static_assert(clay_layer == "clay" && wire_layer == "wires" && uv_layer == "uv" && samples_layer == "samples" &&
-              error_layer == "error"); // as below, where they are C strings
+              error_layer == "error" && exposure_layer == "exposure"); // as below, where they are C strings
+
+std::span<const ExposureZone> exposure_zones() { return zones; }
 
 std::span<const LayerChoice> layer_choices() {
     static const std::vector<LayerChoice> choices = [] {
@@ -129,6 +132,8 @@ std::span<const LayerChoice> layer_choices() {
         });
         all.push_back({"samples", "Samples", "How many samples each pixel got"});
         all.push_back({"error", "Error", "Estimated relative error of each pixel"});
+        all.push_back(
+            {"exposure", "Exposure", "Light in stops from middle grey, and what is cut off to black and white"});
         return all;
     }();
     return choices;
@@ -162,25 +167,43 @@ Scale to_display(const render::FilmImage& image, const DisplaySettings& settings
     rgba.resize(image.pixels());
     if (settings.layer == error_layer) return show_error(image, rgba.data());
     if (settings.layer == samples_layer) return show_samples(image, counts, rgba.data());
+    if (settings.layer == exposure_layer) {
+        show_exposure(image, settings, rgba.data());
+        return {};
+    }
     Scale scale;
-    if (look_of(settings.layer)) show_color(image.color, curve(ToneCurve::srgb), 1, rgba.data());
+    if (look_of(settings.layer)) develop(image.color, image.width, image.height, {}, rgba.data());
     render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
         if (settings.layer != layer.name) return;
         const std::vector<V>& values = image.*layer.values;
         if constexpr (std::is_same_v<V, glm::vec3>) {
             if (layer.look == LayerLook::light)
-                show_color(values, curve(settings.tone), settings.scale * std::exp2(settings.exposure), rgba.data());
+                develop(values, image.width, image.height, developing(settings, image), rgba.data());
             else if (layer.look == LayerLook::direction)
                 show_direction(values, rgba.data());
             else
-                show_color(values, curve(ToneCurve::srgb), 1, rgba.data());
+                develop(values, image.width, image.height, {}, rgba.data());
         } else if constexpr (std::is_same_v<V, float>) {
-            scale = show_distance(values, rgba.data());
+            if (layer.look == LayerLook::distance)
+                scale = show_distance(values, rgba.data());
+            else
+                std::ranges::transform(values, rgba.begin(), grey);
         } else if constexpr (std::is_same_v<V, std::uint32_t>) {
             std::ranges::transform(values, rgba.begin(), id_color);
         }
     });
     return scale;
+}
+
+void over_checkers(std::uint32_t width, std::vector<std::uint32_t>& rgba) {
+    constexpr std::uint32_t side = 8, light = 0x99, dark = 0x66;
+    for (std::size_t i = 0; i < rgba.size(); ++i) {
+        const std::uint32_t alpha = rgba[i] >> 24;
+        if (alpha == 255) continue;
+        const std::uint32_t square = ((i % width / side) + (i / width / side)) % 2 ? light : dark;
+        const auto mixed = [&](int shift) { return ((rgba[i] >> shift & 255) * alpha + square * (255 - alpha)) / 255; };
+        rgba[i] = pack(mixed(0), mixed(8), mixed(16));
+    }
 }
 
 bool to_outlines(const render::FilmImage& image, std::span<const std::uint8_t> marks, int width,

@@ -292,6 +292,7 @@ struct LiveView::Impl {
         if (!work.request->film) {
             work.request->film = film;
             work.request->film->exposure = 1;
+            work.request->film->development = {};
             work.request->film->filename.clear();
         }
         if (std::exchange(work.film, work.request->film) != work.request->film) ++work.film_version;

@@ -3,6 +3,7 @@
 
 #include "io/exr.hpp"
 #include "io/image_file.hpp"
+#include "view/develop.hpp"
 
 #include <fmt/ranges.h>
 #include <algorithm>
@@ -102,6 +103,19 @@ Result<void> check_picture_path(const std::string& path) {
     return {};
 }
 
+Result<void> write_rgba(const std::string& path, std::uint32_t width, std::uint32_t height,
+                        std::span<const std::uint32_t> rgba) {
+    const bool opaque = std::ranges::all_of(rgba, [](std::uint32_t p) { return p >> 24 == 255; });
+    scene::PixelData pixels{.width = width, .height = height, .channels = opaque ? 3u : 4u, .values = {}};
+    pixels.values.reserve(rgba.size() * pixels.channels);
+    for (const std::uint32_t p : rgba) {
+        for (int shift = 0; shift < 24; shift += 8) // encoding gives the same 8 bits
+            pixels.values.push_back(io::srgb_to_linear(float(p >> shift & 255) / 255));
+        if (!opaque) pixels.values.push_back(float(p >> 24) / 255);
+    }
+    return io::write_image(path, pixels);
+}
+
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& o) {
     RESTAGE_CHECK(check_aovs(o.aovs));
     const render::FilmImage& film = picture.film;
@@ -110,6 +124,19 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
     const auto& seen = std::get<0>(render::film_layers);
     add_layer(image, "", seen, color, picture.exposure);
     const std::string extension = extension_of(path);
+    const bool encoded = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+    if (encoded && picture.development != scene::Development{}) {
+        scene::Development how = picture.development;
+        if (how.backdrop == scene::Backdrop::transparent && extension != ".png") how.backdrop = scene::Backdrop::black;
+        std::vector<std::uint32_t> rgba(film.pixels());
+        develop(color, film.width, film.height,
+                {.how = how,
+                 .factor = picture.exposure * std::exp2(o.exposure_stops),
+                 .window = picture.window,
+                 .coverage = film.coverage},
+                rgba.data());
+        return write_rgba(path, film.width, film.height, rgba);
+    }
     if (extension != ".exr") {
         scene::PixelData pixels{
             .width = film.width, .height = film.height, .channels = 3, .values = std::move(image.layers[0].values)};
@@ -117,6 +144,11 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
         if (extension == ".jpg" || extension == ".jpeg") return io::write_jpg(path, pixels, o.exposure_stops);
         return io::write_image(path, pixels);
     }
+    if (picture.development.backdrop == scene::Backdrop::transparent) // its colours are premultiplied, as in any .exr
+        render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
+            if constexpr (std::is_same_v<V, float>)
+                if (layer.values == &render::FilmImage::coverage) add_layer(image, "", layer, film.coverage, 1);
+        });
     if (picture.denoised) add_layer(image, "noisy", seen, film.color, picture.exposure);
     render::each_film_layer([&](const auto& layer) {
         const bool wanted =

@@ -4,9 +4,11 @@
 
 #include "base/result.hpp"
 #include "render/film_layers.hpp"
+#include "scene/scene.hpp"
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,8 @@ struct Picture {
     render::FilmImage film;
     std::optional<std::vector<glm::vec3>> denoised;
     float exposure = 1; // of the scene's film
+    scene::Development development; // likewise
+    glm::vec4 window{0, 1, 0, 1}; // likewise: Film::crop
     std::string denoiser = "none"; // that made `denoised`: "oidn high"
 };
 
@@ -30,8 +34,12 @@ std::vector<std::string> aov_names();
 Result<void> check_aovs(const std::string& aovs);
 // Checks, before hours of rendering, that a picture can be written there.
 Result<void> check_picture_path(const std::string& path);
-// .exr: the picture, the requested layers and metadata. .png, .jpg: exposure and sRGB. .pfm, .hdr: the picture.
+// .exr: the picture, the requested layers and metadata. .png, .jpg: developed. .pfm, .hdr: the picture.
 // The same picture and options give the same bytes.
 Result<void> write_picture(const std::string& path, const Picture& picture, const PictureOptions& options);
+
+// As .png or .jpg, by the extension: `rgba` has width * height pixels, red in the lowest byte; .jpg has no alpha.
+Result<void> write_rgba(const std::string& path, std::uint32_t width, std::uint32_t height,
+                        std::span<const std::uint32_t> rgba);
 
 } // namespace restage::view

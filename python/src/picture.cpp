@@ -7,6 +7,7 @@
 #include "base/file.hpp"
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
+#include "scene/development.hpp"
 #include "view/merge_pictures.hpp"
 #include "view/picture.hpp"
 
@@ -88,7 +89,8 @@ nb::object mask(const Owner& p, nb::handle thing) {
 void save(const Picture& p, const std::filesystem::path& path, const std::string& aovs, float exposure) {
     if (!std::isfinite(exposure)) throw Failure("save: an exposure is a finite number of stops");
     const nb::gil_scoped_release release;
-    view::Picture out{.film = p.film, .denoised = std::nullopt, .exposure = 1};
+    view::Picture out{
+        .film = p.film, .denoised = std::nullopt, .exposure = 1, .development = p.development, .window = p.window};
     if (!p.denoised.empty()) out.denoised = p.denoised;
     take(view::check_picture_path(path.string()));
     view::PictureOptions options;
@@ -162,10 +164,13 @@ void from_bytes(const nb::handle h, std::vector<V>& v) {
 
 nb::tuple get_state(const Picture& p) {
     const auto& f = p.film;
+    const scene::Development& d = p.development;
     nb::list layers;
     render::each_film_layer([&](const auto& layer) { layers.append(bytes(f.*layer.values)); });
     return nb::make_tuple(f.width, f.height, f.samples, layers, bytes(p.denoised), p.seed, p.first_sample, p.seconds,
-                          p.finished, p.not_finite, p.scene, p.device, p.tracer, p.denoiser);
+                          p.finished, p.not_finite, p.scene, p.device, p.tracer, p.denoiser,
+                          nb::make_tuple(scene::tone_name(d.tone), d.temperature, d.tint, d.vignette, d.bloom),
+                          nb::make_tuple(p.window.x, p.window.y, p.window.z, p.window.w));
 }
 
 void set_state(Picture& p, const nb::tuple& t) {
@@ -188,6 +193,14 @@ void set_state(Picture& p, const nb::tuple& t) {
     p.device = nb::cast<std::string>(t[11]);
     p.tracer = nb::cast<std::string>(t[12]);
     p.denoiser = nb::cast<std::string>(t[13]);
+    const auto d = nb::cast<nb::tuple>(t[14]), w = nb::cast<nb::tuple>(t[15]);
+    p.development = {.tone = scene::find_tone(nb::cast<std::string>(d[0])).value_or(scene::ToneCurve::srgb),
+                     .temperature = nb::cast<float>(d[1]),
+                     .tint = nb::cast<float>(d[2]),
+                     .vignette = nb::cast<float>(d[3]),
+                     .bloom = nb::cast<float>(d[4])};
+    for (int i = 0; i < 4; ++i)
+        p.window[i] = nb::cast<float>(w[std::size_t(i)]);
 }
 
 } // namespace
@@ -220,7 +233,8 @@ void denoise(Picture& p, const std::string& quality, unsigned threads, const std
 
 void bind_picture(nb::module_& m) {
     static const std::string save_doc = fmt::format(
-        "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB), .pfm or .hdr; the denoised picture if there "
+        "Writes .exr (linear, all layers), .png or .jpg (8-bit sRGB, with the session's tone,\nwhite balance ... of "
+        "the render), .pfm or .hdr; the denoised picture if there "
         "is one.\n"
         "aovs: of an .exr, comma-separated {}; all; none. exposure: of a .png or .jpg [stops].",
         fmt::join(view::aov_names(), ", "));

@@ -14,6 +14,8 @@ struct Picture {
     std::shared_ptr<Host> host;
     render::FilmImage film; // the exposure is in color, std_error and luminance_variance
     std::vector<glm::vec3> denoised;
+    scene::Development development; // of the scene
+    glm::vec4 window{0, 1, 0, 1};   // likewise: Film::crop
     std::uint32_t seed = 0, first_sample = 0;
     double seconds = 0;
     bool finished = false;

@@ -5,6 +5,7 @@
 
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
+#include "scene/development.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
@@ -164,6 +165,8 @@ std::shared_ptr<Picture> render(const Shared& w, std::optional<std::tuple<std::u
     w->host().flush_log();
     take(std::move(done));
     picture->film.expose(scene.film.value.exposure);
+    picture->development = scene::development_of(scene);
+    picture->window = scene.film.value.crop;
     if (!quality.empty() && picture->film.samples > 0)
         try { // after a stop the callback is not called again: the partial picture is denoised
             denoise(*picture, quality, threads, denoiser,

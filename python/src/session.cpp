@@ -8,10 +8,12 @@
 #include "document/project.hpp"
 #include "io/strict.hpp"
 #include "query/wholes.hpp"
+#include "scene/development.hpp"
 #include "scene/same_material.hpp"
 #include "scene/sky.hpp"
 #include "scene/studio.hpp"
 
+#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
@@ -249,9 +251,32 @@ void bind_film(nb::class_<Workspace>& c) {
             [film](Workspace& w, double x) { film(w, [&](Film& f) { f.exposure = float(x); }); },
             "Linear exposure factor; 1 = unchanged.")
         .def_prop_rw(
-            "samples", [](Workspace& w) { return w.scene().settings.value.samples; },
-            [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.samples = n; }); },
-            "The scene's samples per pixel.")
+            "tone", [](Workspace& w) { return scene::tone_name(w.scene().film.value.development.tone); },
+            [film](Workspace& w, const std::string& name) {
+                const auto tone = scene::find_tone(name);
+                if (!tone)
+                    throw Failure(
+                        fmt::format("tone: \"{}\" is unknown; known: {}", name, fmt::join(scene::tone_names, ", ")));
+                film(w, [&](Film& f) { f.development.tone = *tone; });
+            },
+            "Tone curve of pictures saved as .png or .jpg: 'srgb' (clipped), 'filmic', 'agx' or 'neutral'.");
+    const auto development = [&](const char* name, float scene::Development::* field, const char* doc) {
+        c.def_prop_rw(
+            name, [field](Workspace& w) { return exact(w.scene().film.value.development.*field); },
+            [film, field](Workspace& w, double x) { film(w, [&](Film& f) { f.development.*field = float(x); }); }, doc);
+    };
+    development(
+        "white_balance", &scene::Development::temperature,
+        "Colour temperature of the light shown as white in a .png or .jpg [K], 1667 to 25000; 6504 = unchanged.");
+    development("tint", &scene::Development::tint, "Tint of that light, -150 to 150: above 0 greenish, below pinkish.");
+    development("vignette", &scene::Development::vignette,
+                "Darkening of the corners of a .png or .jpg, 0 to 1: 1 leaves a quarter there.");
+    development("bloom", &scene::Development::bloom,
+                "Fraction of the light of a .png or .jpg that is scattered as in a lens, 0 to 1.");
+    c.def_prop_rw(
+         "samples", [](Workspace& w) { return w.scene().settings.value.samples; },
+         [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.samples = n; }); },
+         "The scene's samples per pixel.")
         .def_prop_rw(
             "max_depth", [](Workspace& w) { return w.scene().settings.value.max_depth; },
             [settings](Workspace& w, std::uint32_t n) { settings(w, [&](Settings& s) { s.max_depth = n; }); },

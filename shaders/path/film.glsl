@@ -52,7 +52,7 @@ bool film_add(inout FilmPixel f, vec3 c) {
 GuideSample guide_nothing(float weight) {
     GuideSample g;
     g.albedo = g.normal = vec3(0);
-    g.depth = 0.0;
+    g.depth = g.coverage = 0.0;
     g.instance_id = g.material_id = 0u;
     g.weight = weight;
     return g;
@@ -64,6 +64,7 @@ void guide_write(GuideArray guides, uint i, GuideSample g) {
     guides.at[i].depth = g.depth;
     guides.at[i].instance_id = g.instance_id;
     guides.at[i].material_id = g.material_id;
+    guides.at[i].coverage = g.coverage;
 }
 void guide_write_behind(GuideArray guides, uint i, GuideSample g) {
     guides.at[i].albedo = g.albedo;
@@ -78,6 +79,7 @@ void guide_add(inout GuidePixel g, GuideSample a) {
     g.albedo += a.albedo;
     g.normal += a.normal;
     g.depth += a.depth;
+    g.coverage += a.coverage;
     g.count += 1.0;
 }
 // Behind mirrors and glass: for a sample that guide_add has counted.

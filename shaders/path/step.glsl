@@ -85,6 +85,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         guide.albedo = finite(albedo) ? clamp(albedo, ALBEDO_LEAST, ALBEDO_MOST) : vec3(0);
         guide.normal = finite(s.ns) ? s.ns : vec3(0);
         guide.depth = t;
+        guide.coverage = 1.0;
         guide.instance_id = inst.object_id;
         guide.material_id = material_data.id;
     }

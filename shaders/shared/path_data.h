@@ -82,7 +82,7 @@ struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the fi
     float depth; // distance along the ray; 0 = nothing hit
     uint instance_id, material_id;
     float weight; // of the filter
-    uint pad0;
+    float coverage; // 1 = it hit something
 };
 
 struct FilmPixel { // 60 bytes; what the sums have in excess is subtracted when they are read
@@ -99,6 +99,7 @@ struct GuidePixel {
     vec3 normal;
     float depth;
     uint instance_id, material_id; // of the first sample
+    float coverage;
 };
 
 struct SamplePick { // a sample to take

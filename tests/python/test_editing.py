@@ -326,6 +326,15 @@ def test_size_exposure_and_settings_are_edits(demo):
         demo.undo()
     assert (demo.adaptive, demo.guiding, demo.caustics) == (False, "auto", "auto")
     assert demo.size != (64, 48) and demo.exposure != 2.0
+    demo.tone, demo.white_balance, demo.tint, demo.vignette, demo.bloom = "agx", 3200, -10, 0.5, 0.25
+    assert (demo.tone, demo.white_balance, demo.tint, demo.vignette, demo.bloom) == ("agx", 3200, -10, 0.5, 0.25)
+    with pytest.raises(restage.Error, match='tone: "sepia" is unknown; known: srgb, filmic, agx, neutral'):
+        demo.tone = "sepia"
+    with pytest.raises(restage.Error, match="a white balance of 5; it must be from 1667 to 25000"):
+        demo.white_balance = 5
+    for _ in range(5):
+        demo.undo()
+    assert (demo.tone, demo.white_balance, demo.tint, demo.vignette, demo.bloom) == ("srgb", 6504, 0, 0, 0)
     assert demo.up == (0, 0, 1) and demo.bounds.shape == (2, 3) and demo.format == "pbrt-v4"
 
 

@@ -106,8 +106,9 @@ TEST_CASE("live view: an invisible change continues the current picture") {
         scene::Camera other = b.scene.cameras[b.scene.active_camera.value];
         b.scene.cameras.set(b.scene.cameras.next(), other, ++b.scene.clock);
     }
-    SECTION("the exposure and the file's name") {
+    SECTION("the exposure, the development and the file's name") {
         b.scene.film.value.exposure = 2;
+        b.scene.film.value.development = {.tone = scene::ToneCurve::agx, .bloom = 0.1f};
         b.scene.film.value.filename = "other.exr";
         b.scene.film.version = ++b.scene.clock;
     }

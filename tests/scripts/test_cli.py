@@ -240,7 +240,7 @@ def test_one_sample_has_no_error_and_unknown_layers_and_denoisers_are_refused(tm
     common = ["render", CORNELL, "-o", tmp_path / "one.exr", "--size", "16x16", "--spp", 1]
     done = restage(*common)
     assert done.returncode == 0 and "error unknown with one sample" in done.stderr and "e+3" not in done.stderr
-    for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth and id"),
+    for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth, coverage and id"),
                         (["--denoiser", "nosuch"], 'there is no denoiser "nosuch"; there are')):
         done = restage(*common, *extra)
         assert done.returncode == 1 and says in done.stderr
@@ -444,7 +444,7 @@ def test_inputs_and_non_files_are_never_overwritten(tmp_path):
         assert done.returncode == 1 and says in done.stderr, (args, done.stderr)
     assert files() == before
     done = restage("convert", "a.exr", "link.png", cwd=tmp_path)
-    assert done.returncode == 0 and "lacks the layers albedo, depth, id, normal, stderr of a.exr" in done.stderr
+    assert done.returncode == 0 and "lacks the layers albedo, coverage, depth, id, normal, stderr of a.exr" in done.stderr
     assert (tmp_path / "link.png").is_symlink() and (tmp_path / "elsewhere/x.png").read_bytes().startswith(b"\x89PNG")
 
 

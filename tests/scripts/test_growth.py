@@ -24,7 +24,7 @@ def guides():
 
 
 def test_layers_of_the_film_are_found_here():
-    assert {g[0] for g in guides()} == {"albedo", "normal", "depth", "instance_id", "material_id"}
+    assert {g[0] for g in guides()} == {"albedo", "normal", "depth", "coverage", "instance_id", "material_id"}
 
 
 @pytest.mark.parametrize("field, name, file, label", guides())

@@ -138,6 +138,25 @@ TEST_CASE("the scene panel changes sky, camera, picture, lights and rendering", 
         drags_are_steps(h, ctx, {"film.wh", "film.exposure", "film.filter_radius"});
         h.click(ctx, "scene.film");
     });
+    h.play("development", [&](ImGuiTestContext* ctx) {
+        h.click(ctx, "scene.development");
+        drags_are_steps(h, ctx,
+                        {"development.white_balance", "development.tint", "development.vignette", "development.bloom"});
+        const auto tone = [&] { return h.scene().film.value.development.tone; };
+        h.click(ctx, "development.tone");
+        h.click(ctx, "development.tone.agx");
+        IM_CHECK(tone() == scene::ToneCurve::agx);
+        h.click(ctx, "toolbar.tone"); // shows and sets the same
+        h.click(ctx, "toolbar.tone.neutral");
+        IM_CHECK(tone() == scene::ToneCurve::neutral);
+        h.drag(ctx, "development.vignette");
+        h.click(ctx, "development.reset");
+        IM_CHECK(h.scene().film.value.development == scene::Development{});
+        h.editor().run("edit.undo");
+        ctx->Yield(2);
+        IM_CHECK(tone() == scene::ToneCurve::neutral && h.scene().film.value.development.vignette > 0);
+        h.click(ctx, "scene.development");
+    });
     h.play("lights", [&](ImGuiTestContext* ctx) {
         h.click(ctx, "scene.lights");
         const auto lights = h.scene().lights.live();

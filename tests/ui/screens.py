@@ -300,6 +300,48 @@ def scene_picture(s):
 
 
 @state
+def scene_development(s):
+    s.start(DEMO)
+    s.tab("Scene")
+    s.top()
+    s.show("scene.development")
+    s.editor.click("scene.development")
+    s.show("development.reset")
+    s.editor.click("development.tone")
+
+
+@state
+def exposure_in_false_colours(s):
+    s.start(DEMO, config="exposure")
+    s.rest()
+    s.editor.key("shift+e")
+
+
+@state
+def lights_soloed(s):
+    s.start(DEMO, config="lights")
+    s.tab("Scene")
+    s.top()
+    s.show("scene.lights")
+    s.editor.click("scene.lights")
+    s.show("lights.solo.sky")
+    s.editor.click("lights.mute.sky")
+    s.rest()
+
+
+@state
+def transparent_backdrop(s):
+    s.start(DEMO, config="backdrop")
+    s.tab("Scene")
+    s.top()
+    s.editor.click("sky.hidden")
+    s.show("sky.backdrop")
+    s.editor.click("sky.backdrop")
+    s.editor.click("sky.backdrop.transparent")
+    s.rest()
+
+
+@state
 def scene_rendering(s):
     s.start(DEMO)
     s.tab("Scene")

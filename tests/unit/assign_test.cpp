@@ -52,6 +52,10 @@ TEST_CASE("name.field=value changes a scene", "[assign]") {
     CHECK(s.instances[session.find<Instance>("Lamp")].hidden);
     set("film.exposure=2.5");
     CHECK(s.film.value.exposure == 2.5f);
+    set("film.tone=agx");
+    set("film.white_balance=3200");
+    set("film.bloom=0.25");
+    CHECK(s.film.value.development == Development{.tone = ToneCurve::agx, .temperature = 3200, .bloom = 0.25f});
     set("sky.scale=2");
     set("sky.rotation=90");
     set("settings.max_depth=3");
@@ -69,6 +73,9 @@ TEST_CASE("name.field=value changes a scene", "[assign]") {
     CHECK_THAT(refused("ash.reflectance=1"),
                ContainsSubstring("there is no material, object, light or camera \"ash\""));
     CHECK_THAT(refused("film.exposure=nan"), ContainsSubstring("exposure"));
+    CHECK_THAT(refused("film.tone=sepia"), ContainsSubstring("srgb, filmic, agx, neutral"));
+    CHECK_THAT(refused("film.bloom=2"), ContainsSubstring("a bloom of 2; it must be from 0 to 1"));
+    CHECK_THAT(refused("film.shutter=2"), ContainsSubstring("the film has exposure, tone"));
     CHECK_THAT(refused((camera + ".fov=190").c_str()), ContainsSubstring("field of view"));
     CHECK_THAT(refused("settings.samples=-1"), ContainsSubstring("whole number"));
     for (const char* nothing : {"", "oak", "oak=1", ".reflectance=1", "oak.=1", "=.1"})

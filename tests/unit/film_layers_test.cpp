@@ -81,6 +81,7 @@ TEST_CASE("layers of a film are shown, and so is the error") {
     }
     CHECK(labels.contains("Picture"));
     CHECK(labels.contains("Error"));
+    CHECK(labels.contains("Exposure"));
 }
 
 TEST_CASE("tracers are found by their names; by default the device chooses") {

@@ -71,6 +71,8 @@ class Monkey {
                 if (pick(2)) f.filter = {static_cast<FilterKind>(pick(5)), {1 + x(), 2}, {x(), x()}};
                 if (pick(2)) f.exposure = x();
                 if (pick(2)) f.filename = name();
+                // Without a random number.
+                f.development = {.tone = ToneCurve(f.width % 4), .temperature = 3000 + float(f.height % 5000)};
                 if (f.width < 64 || f.height < 64) f.crop = {0, 1, 0, 1}; // a crop of less than a pixel is refused
                 e = set_film(s, f);
                 break;

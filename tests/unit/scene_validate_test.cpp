@@ -122,6 +122,14 @@ TEST_CASE("an edit with values that cannot be rendered is refused with a message
         Film film;
         film.exposure = bad;
         refused(set_film(r.scene, film), "exposure");
+        for (const auto field : {&Development::temperature, &Development::vignette, &Development::bloom}) {
+            film = {};
+            film.development.*field = bad;
+            refused(set_film(r.scene, film), "must be from");
+        }
+        film = {};
+        film.development.tint = bad * 1000;
+        refused(set_film(r.scene, film), "tint");
         film = {};
         film.filter.radius.x = bad;
         refused(set_film(r.scene, film), "pixel filter");

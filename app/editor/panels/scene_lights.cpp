@@ -4,6 +4,7 @@
 
 #include "document/session.hpp"
 #include "io/material_emission.hpp"
+#include "light_buttons.hpp"
 #include "plugin/registry.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
@@ -117,14 +118,18 @@ void lights_section(SelectContext& e) {
     e.mark("scene.lights");
     if (!open) return;
     ImGui::PushID("lights");
+    light_board_note(e);
     std::size_t shown = 0;
+    if (e.scene().environment.value) {
+        ImGui::TextUnformatted("The sky");
+        light_row_end(e, view::sky_key, "sky", "Sky");
+    }
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
         ImGui::PushID(int(id.value));
         if (ImGui::Selectable(light.name.c_str(), e.selection.light() == id, ImGuiSelectableFlags_AllowOverlap))
             e.selection.set_light(id);
         e.mark("lights." + light.name);
-        ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextDisabled("%s", scene::light_row(light.kind).label);
+        light_row_end(e, view::key_of(id), light.name, scene::light_row(light.kind).label);
         ImGui::PopID();
         ++shown;
     });
@@ -139,8 +144,7 @@ void lights_section(SelectContext& e) {
             e.selection.set(ids);
         if (ImGui::IsItemHovered()) e.hovered = id;
         e.mark("lights." + instance.name);
-        ImGui::SameLine(ImGui::GetContentRegionAvail().x - 60 * ImGui::GetStyle().FontScaleMain);
-        ImGui::TextDisabled("Object");
+        light_row_end(e, view::key_of(id), instance.name, "Object");
         ImGui::PopID();
         ++shown;
     });

@@ -11,6 +11,7 @@ class PictureView;
 void sky_section(EditContext& editor);
 void camera_section(SelectContext& editor);
 void film_section(EditContext& editor);
+void development_section(EditContext& editor);
 void lights_section(SelectContext& editor);
 void render_section(EditContext& editor, PictureView& picture);
 

@@ -5,6 +5,7 @@
 #include "panels.hpp"
 #include "plugin/registry.hpp"
 #include "scene/edits.hpp"
+#include "scene_development.hpp"
 #include "scene_panel.hpp"
 
 #include "document/exposure.hpp"
@@ -289,7 +290,8 @@ void sky_section(EditContext& e) {
         changed |= ImGui::DragFloat("##strength", &strength, drag_speed(strength, 1e-3f), 0, 1e6f,
                                     sky.image ? "%.4g×" : "%.4g W/(m²sr)", ImGuiSliderFlags_AlwaysClamp);
         e.mark("sky.strength");
-        form_row("Hide from view", "Shows black instead. It still emits light, and is visible in mirrors and glass");
+        form_row("Hide from view",
+                 "Shows a backdrop instead. It still emits light, and is visible in mirrors and glass");
         if (bool hidden = sky.hidden_from_camera; ImGui::Checkbox("##hidden", &hidden)) {
             Environment other = *now;
             other.hidden_from_camera = hidden;
@@ -301,6 +303,7 @@ void sky_section(EditContext& e) {
             ask_sky(e, sky, "Sky's light", "sky.scale");
         }
     }
+    if (!now || now->hidden_from_camera) backdrop_rows(e);
     ImGui::PopID();
 }
 
@@ -308,6 +311,7 @@ void draw_scene_settings(SelectContext& e, PictureView& picture) {
     sky_section(e);
     camera_section(e);
     film_section(e);
+    development_section(e);
     lights_section(e);
     render_section(e, picture);
 }

@@ -15,6 +15,7 @@
 #include "scene/statistics.hpp"
 #include "selection.hpp"
 #include "sky_making.hpp"
+#include "view/light_board.hpp"
 
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -160,6 +161,7 @@ struct PanelState {
         arrange.live.reset();
         arrange.found = {};
         history_seen = 0;
+        lights.forget();
         plugins.asked.clear(); // may refer to its things
     }
 
@@ -174,6 +176,7 @@ struct PanelState {
     ArrangeState arrange;
     OutlinerState outliner;
     SceneState scene;
+    view::LightBoard lights; // of the live picture
     ReportState report;
     LogState log;
     ConvergenceState convergence;
