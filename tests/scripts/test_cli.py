@@ -494,7 +494,7 @@ def test_a_turntable_turns_the_camera_once_around_the_scene(tmp_path):
     assert done.returncode == 0, done.stderr
     pixels = [np.frombuffer((tmp_path / f"turn.0{n}.pfm").read_bytes()[-32 * 32 * 12:], np.float32).reshape(32, 32, 3) for n in (1, 2)]
     left = [p[:, :16].sum(axis=(0, 1)) for p in pixels]
-    assert left[0][2 if left[0][0] == 0 else 0] == 0 and left[0].sum() > 1  # one ball only
-    assert np.allclose(left[0][[2, 1, 0]], left[1], rtol=0.2)  # half a turn: the other one
+    assert all(color.max() > 0.9 * color.sum() > 10 for color in left)  # one ball each
+    assert {int(color.argmax()) for color in left} == {0, 2}  # half a turn: the other one
     wrong = restage("render", scene, "-o", tmp_path / "turn.pfm", *some, 2)
     assert wrong.returncode == 1 and "put #### in the name" in wrong.stderr
