@@ -101,6 +101,7 @@ render::FilmImage film_of(const std::vector<double>& samples, double twin) {
                            .albedo = {glm::vec3(float(mean))},
                            .normal = {glm::vec3(0, 0, 1)},
                            .depth = {float(n)},
+                           .coverage = {1},
                            .instance_id = {std::uint32_t(samples.size())},
                            .material_id = {7}};
     render::correct_errors(film);
