@@ -122,8 +122,9 @@ EditContext::Builder giving(const LibraryItem& item, std::vector<InstanceId> obj
 
 void with_images(PanelUi& e, LibraryItem item, std::function<void(PanelUi&, const LibraryItem&)> then) {
     if (!item.preset || decoded(*item.preset)) return then(e, item);
+    const std::string title = "Reading " + item.name;
     e.files().jobs.start(
-        {.title = "Reading " + item.name},
+        {.title = title},
         [item = std::move(item), then = std::move(then)](BackgroundJob&) -> std::function<void(PanelContext&)> {
             auto preset = std::make_shared<document::Preset>(*item.preset);
             if (auto read = document::read_images(*preset); !read)

@@ -34,6 +34,7 @@ const Scene& ShownScene::follow(const Scene& scene, std::uint64_t document, cons
         document_ = document;
         trial_ = 0;
     }
+    // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): the document's, which outlives the call
     if (!shown_ && !trial.build) return scene;
     if (!shown_) {
         shown_ = scene; // shares its data
