@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace restage::query {
@@ -42,11 +43,11 @@ class Finder {
         Things things;
         things.imported_groups = imported_groups_;
         gather();
-        if (parts_.size() <= most_objects) find_architecture();
+        if (!too_large()) find_architecture();
         find_collections(things.collections);
         make_units(things.collections);
         things.of.resize(scene_.instances.size() + 1, 0);
-        if (parts_.size() > most_objects || units_.size() < 2 || stopped()) return things;
+        if (too_large() || units_.size() < 2 || stopped()) return things;
         find_contacts();
         if (stopped()) return things;
         joined_.emplace(join_units(units_, touching_));
@@ -78,17 +79,20 @@ class Finder {
         bool architecture = false;
         std::uint32_t unit = 0;
     };
+    bool too_large() const { return parts_.size() > most_objects || triangles_ > most_triangles; }
     bool stopped() const { return stop_ && stop_(); }
     dvec3 in_frame(const dvec3& p) const { return to_frame_ * p; }
 
     void gather() {
         const glm::dmat4 turn(to_frame_);
+        std::set<scene::Id<scene::Mesh>> meshes;
         scene_.instances.each([&](InstanceId id, const scene::Instance& instance) {
             const scene::Mesh* mesh = scene_.meshes.find(instance.mesh);
             if (!mesh || !mesh->data || mesh->data->triangles.empty()) return;
             Part part{.id = id, .box = scene::world_bounds(*mesh->data, turn * instance.object_to_world)};
             if (part.box.empty()) return;
             all_.add(part.box);
+            if (meshes.insert(instance.mesh).second) triangles_ += mesh->data->triangles.size();
             parts_.push_back(part);
         });
         size_ = diagonal(all_);
@@ -279,6 +283,7 @@ class Finder {
     std::optional<Union> joined_;                                        // units
     Bounds all_;
     double size_ = 0;
+    std::size_t triangles_ = 0;
     bool has_floor_ = false;
 };
 

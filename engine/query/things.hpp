@@ -32,10 +32,10 @@ struct Things {
                 std::span<const scene::Id<scene::Instance>> copies);
 };
 
-// `up`: unit. `imported_groups`: as in the result; the user's own groups are whole as they are. Of scenes with more
-// than `most_objects` objects only groups are looked at. `stop`: asked now and then; when it returns true, the result
+// `up`: unit. `imported_groups`: as in the result; the user's own groups are whole as they are. Of larger
+// scenes than that, only groups are looked at. `stop`: asked now and then; when it returns true, the result
 // is useless. [any]
-inline constexpr std::size_t most_objects = 20'000;
+inline constexpr std::size_t most_objects = 20'000, most_triangles = 10'000'000; // of their meshes, each once
 Things find_things(const scene::Scene& scene, const glm::dvec3& up, std::uint32_t imported_groups,
                    const std::function<bool()>& stop = {});
 
