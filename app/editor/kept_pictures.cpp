@@ -5,6 +5,7 @@
 #include "looks.hpp"
 #include "panel_context.hpp"
 #include "panels/state.hpp"
+#include "scene/development.hpp"
 #include "scene/difference.hpp"
 #include "theme.hpp"
 #include "view/display.hpp"
@@ -46,8 +47,10 @@ void keep_picture(PanelContext& e) {
     if (!frame || frame->clay) return e.notices.add(LogLevel::info, "There is no picture yet");
     view::DisplaySettings settings = e.view.display;
     settings.scale = e.scene().film.value.exposure;
+    settings.development = scene::development_of(e.scene());
     std::vector<std::uint32_t> rgba;
     view::to_display(frame->image, settings, rgba);
+    view::over_checkers(frame->image.width, rgba);
     KeptPictures& kept = e.panel_state->kept;
     const std::string name = fmt::format("Picture {}", kept.number());
     kept.add(name, scene_as_seen(e), frame->image.width, frame->image.height, rgba);

@@ -2,6 +2,7 @@
 #include "look_pictures.hpp"
 
 #include "document/looks.hpp"
+#include "scene/development.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,10 +18,6 @@ glm::uvec2 small_size(const scene::Film& film) {
     const double width = std::max(film.width, 1u), height = std::max(film.height, 1u);
     const double scale = longer_side / std::max(width, height);
     return glm::max(glm::uvec2(glm::dvec2(width, height) * scale + 0.5), glm::uvec2(8));
-}
-
-bool same(const view::DisplaySettings& a, const view::DisplaySettings& b) {
-    return a.tone == b.tone && a.exposure == b.exposure && a.scale == b.scale;
 }
 
 } // namespace
@@ -54,6 +51,7 @@ LookPictures::Shown LookPictures::picture(const SmallPictures::Maker& maker, con
         one.failed = false;
         one.number = next_++;
         one.exposure = scene.film.value.exposure;
+        one.development = scene::development_of(scene);
         scene.film.value.width = of.size.x;
         scene.film.value.height = of.size.y;
         scene.film.value.crop = {0, 1, 0, 1};
@@ -63,10 +61,12 @@ LookPictures::Shown LookPictures::picture(const SmallPictures::Maker& maker, con
     view::DisplaySettings settings = display;
     settings.layer = view::picture_layer;
     settings.scale = one.exposure;
+    settings.development = one.development;
     if (!one.texture) one.texture = pool_.take();
-    if (!one.display || !same(*one.display, settings)) {
+    if (!one.display || *one.display != settings) {
         std::vector<std::uint32_t> rgba;
         view::to_display(one.image, settings, rgba);
+        view::over_checkers(one.image.width, rgba);
         one.texture->set(one.image.width, one.image.height, rgba);
         one.display = settings;
     }

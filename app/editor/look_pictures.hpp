@@ -47,6 +47,7 @@ class LookPictures {
         std::uint64_t number = 0; // of the job
         Of asked, made;
         float exposure = 1; // of the look
+        scene::Development development;
         bool failed = false; // the one asked for
         render::FilmImage image;
         std::optional<view::DisplaySettings> display; // of the texture

@@ -47,6 +47,7 @@ class Difference {
         camera();
         Film film = now_.film.value;
         film.exposure = look_.film.value.exposure;
+        film.development = look_.film.value.development;
         if (!(film == now_.film.value)) add(ChangeOne<Film>{now_.film.value, film});
         return std::move(result_);
     }
