@@ -72,7 +72,8 @@ double DocumentContext::film_aspect() const {
 }
 
 std::shared_ptr<const view::Frame> PanelContext::shown_frame() const {
-    const bool clean = view.display.layer == view::picture_layer || view::look_of(view.display.layer);
+    const std::string_view layer = view.display.layer;
+    const bool clean = layer == view::picture_layer || layer == view::exposure_layer || view::look_of(layer);
     auto frame = live_->best(view.denoise && clean);
     return frame && frame->document == document_ ? frame : nullptr; // another scene was opened in this frame
 }

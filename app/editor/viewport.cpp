@@ -66,7 +66,7 @@ void Viewport::draw(PanelContext& e) {
     ImGui::Dummy(size);
     e.mark("picture");
     accept_asset(e);
-    draw_axes(e);
+    if (e.view.display.layer != view::exposure_layer) draw_axes(e); // whose legend is there
     const bool over = (gizmo.knob || (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered())) &&
                       ImGui::IsMouseHoveringRect(corner, end) && !cancelled_;
     if (cancelled_ && !ImGui::IsKeyDown(ImGuiKey_T) && !ImGui::IsAnyMouseDown()) cancelled_ = false;
