@@ -210,7 +210,8 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         // Enters the whole; on nothing, or on a single object, the point there becomes the centre of orbits.
         const InstanceId id = pickable(picked_at(e, io.MousePos));
-        if (const Whole whole = e.selection.click_whole(e.scene(), id)) {
+        if (const Whole whole = e.selection.click_whole(e.scene(), id);
+            whole && e.selection.click_target(e.scene(), id).size() > 1) {
             e.selection.enter(whole);
             e.selection.set(e.selection.click_target(e.scene(), id));
             pressed_ = false;

@@ -121,7 +121,7 @@ std::string selection_note(const SelectContext& e) {
     const auto& ids = selected.instances();
     if (ids.empty()) return "";
     const Whole whole = selected.click_whole(e.scene(), selected.active());
-    if (whole && selected.click_target(e.scene(), selected.active()).size() == ids.size()) {
+    if (whole && ids.size() > 1 && selected.click_target(e.scene(), selected.active()).size() == ids.size()) {
         const scene::Group* group = whole.thing ? nullptr : e.scene().groups.find(whole.group);
         return fmt::format("{}: {} parts as one; a double click goes into it",
                            group ? group->name : e.scene().instances[selected.active()].name, ids.size());
