@@ -6,7 +6,7 @@ import restage
 
 
 def test_looks_are_recorded_and_gone_to(cornell, tmp_path):
-    wall = next(m for m in cornell.materials if "reflectance" in m.values)
+    wall = next(m for m in cornell.materials if "reflectance" in m)
     before = tuple(wall["reflectance"])
     assert cornell.looks == [] and cornell.look is None
     cornell.new_look("as it was")
