@@ -95,7 +95,6 @@ void menu_of_look(SelectContext& e, LooksState& state, std::size_t index) {
 
 void name_of_look(EditContext& e, LooksState& state, std::size_t index, const Card& at) {
     const float scale = ImGui::GetStyle().FontScaleMain;
-    const ImVec2 back = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({at.corner.x, at.corner.y + at.size.y + scale});
     ImGui::SetNextItemWidth(at.size.x);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0, 0));
@@ -111,7 +110,6 @@ void name_of_look(EditContext& e, LooksState& state, std::size_t index, const Ca
                     e.notices.add(LogLevel::error, done.error().message);
             });
     }
-    ImGui::SetCursorScreenPos(back);
 }
 
 void draw_look(SelectContext& e, PictureView& picture, LooksState& state, std::size_t index) {
