@@ -51,7 +51,7 @@ Result<void> apply_background(const DevelopmentOptions& o, scene::Scene& scene) 
         d.backdrop = scene::Backdrop::color;
         const char *at = o.background.data(), *end = at + o.background.size();
         for (int i = 0; i < 3; ++i) {
-            if (i > 0 && (at == end || *at++ != ',')) at = end;
+            if (i > 0) at = at != end && *at == ',' ? at + 1 : end;
             const auto [stop, code] = std::from_chars(at, end, d.backdrop_color[i]);
             const float value = d.backdrop_color[i];
             if (code != std::errc() || !(value >= 0 && value <= 1) || (i == 2 && stop != end))

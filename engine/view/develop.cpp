@@ -41,8 +41,7 @@ glm::dmat3 rows(const std::array<double, 9>& m) {
 // 8-bit sRGB needs below 1, except for the darkest steps.
 class Encoding {
   public:
-    template <class F>
-    explicit Encoding(F&& curve) : table_(0x8000) {
+    explicit Encoding(float (*curve)(float)) : table_(0x8000) {
         for (std::uint32_t i = 0; i < table_.size(); ++i) {
             const float x = std::bit_cast<float>(i << 16 | 0x8000u);
             table_[i] = std::isnan(x) ? 0 : encode(curve(x));
@@ -72,8 +71,8 @@ const Encoding& filmic() {
 
 std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) { return r | g << 8 | b << 16 | 0xff000000u; }
 
-void multiply(const glm::mat3& matrix, Block& block) {
-    const glm::vec3 x = matrix[0], y = matrix[1], z = matrix[2]; // copies, which the block cannot alias
+void multiply(glm::mat3 matrix, Block& block) { // a copy, which the block cannot alias
+    const glm::vec3 &x = matrix[0], &y = matrix[1], &z = matrix[2];
     auto& [red, green, blue] = block.c;
     for (std::size_t i = 0; i < Block::size; ++i) {
         const float r = red[i], g = green[i], b = blue[i];
@@ -102,6 +101,7 @@ class Agx {
             });
         multiply(outset_, block);
         for (Block::Channel& channel : block.c)
+            // NOLINTNEXTLINE(bugprone-incorrect-roundings): x >= 0, and lround is no vector instruction
             look_up(channel, power_, [](float x) { return std::int32_t(unit(x) * 2048 + 0.5f); });
         multiply(to_srgb_, block);
     }

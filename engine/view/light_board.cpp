@@ -88,7 +88,7 @@ void LightBoard::switch_one(Id<T> id, const T& item, F&& off) {
 }
 
 const Scene& LightBoard::follow(const Scene& now, const plugin::Registry& registry) {
-    if (!copy_ && !any()) return now;
+    if (!copy_ && !any()) return now; // NOLINT(bugprone-return-const-ref-from-parameter): valid as long as it is
     bool look = !copy_ || followed_ != version_;
     if (!copy_) {
         copy_ = now;
