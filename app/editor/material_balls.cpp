@@ -192,7 +192,7 @@ void MaterialBalls::poll() {
     for (const Finished& one : finished) {
         if (one.made.document != 0 && one.made.document != document_) continue;
         auto& texture = balls_[one.key].texture;
-        if (!texture) texture = std::make_unique<Texture>();
+        if (!texture) texture = pool_.take();
         texture->set(side, side, one.rgba);
     }
 }

@@ -8,7 +8,7 @@
 #include "plugin/registry.hpp"
 #include "render/renderer_options.hpp"
 #include "scene/scene.hpp"
-#include "texture.hpp"
+#include "texture_pool.hpp"
 
 #include <atomic>
 #include <condition_variable>
@@ -56,7 +56,7 @@ class MaterialBalls {
     };
     struct Ball {
         Made made; // the latest request
-        std::unique_ptr<Texture> texture;
+        TexturePool::Held texture;
     };
     struct Job {
         std::string key;
@@ -73,6 +73,7 @@ class MaterialBalls {
     void work(Maker maker);
 
     std::function<void()> wake_;
+    TexturePool pool_;
     std::map<std::string, Ball> balls_; // "17": of the scene; "/folder/gold.json"
     std::uint64_t document_ = 1;
     std::atomic<std::size_t> rendered_ = 0;
