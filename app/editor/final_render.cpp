@@ -242,10 +242,9 @@ void start(PanelContext& e, const Wish& wish) {
     const fs::path path(e.session().path());
     std::vector<Shot> list = shots(e, wish);
     const bool one = list.size() == 1;
-    e.files().jobs.start({.title = one ? "Final picture " + list[0].path.filename().string()
-                                       : fmt::format("{} final pictures", list.size()),
-                          .can_finish_early = one,
-                          .pauses_picture = true},
+    const std::string title =
+        one ? "Final picture " + list[0].path.filename().string() : fmt::format("{} final pictures", list.size());
+    e.files().jobs.start({.title = title, .can_finish_early = one, .pauses_picture = true},
                          [wish, list = std::move(list), &registry = e.registry(), &log = e.log(),
                           options = e.options().renderer, name = path.filename().string()](BackgroundJob& job) -> Done {
                              RendererPointer renderer;

@@ -125,6 +125,8 @@ def test_the_kitchen_is_restaged_and_nothing_is_lost(launch, binary, tmp_path):
     first = kitchen.picture()
     assert first.std() > 0.1, "the viewport shows one flat colour"
 
+    editor.key("shift+c")  # single objects, not the whole lamp
+
     # A click picks the object under the mouse.
     editor.click(LAMP)
     state = editor.wait(lambda s: s["selection"], "the lamp to be selected")
