@@ -4,6 +4,7 @@
 #include "panel_context.hpp"
 #include "query/measure.hpp"
 #include "query/navigation.hpp"
+#include "scene/bounds.hpp"
 #include "scene/projection.hpp"
 #include "theme.hpp"
 #include "viewport.hpp"
@@ -97,6 +98,14 @@ void Viewport::draw_axes(PanelContext& e) {
     if (!e.view.show_axes || !e.view.show_overlays || !picture_.ready() || std::min(size.x, size.y) < 6 * radius)
         return;
     const ImVec2 c(corner.x + size.x - radius - 18 * scale, corner.y + radius + 18 * scale);
+    // Handles come first: ImGuizmo ignores clicks on what is under an item.
+    if (const scene::Bounds box = e.selection.bounds(e.scene()); !box.empty() && e.view.gizmo != GizmoMode::select) {
+        const glm::dvec3 p = query::project(e.camera(), box.center(), e.film_aspect());
+        const double reach = 0.15 * double(size.x) + double(radius + ball);
+        if (std::hypot(double(corner.x) + p.x * double(size.x) - double(c.x),
+                       double(corner.y) + p.y * double(size.y) - double(c.y)) < reach)
+            return;
+    }
     const glm::dmat4& camera = e.camera().camera_to_world;
     struct End {
         int axis;
