@@ -37,13 +37,14 @@ void FindingThings::follow(SelectContext& e) {
     if (found_.valid()) {
         if (found_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
         const query::Things found = found_.get();
-        if (things.of.empty())
-            things = found;
+        if (all_)
+            things = found; // what was copied meanwhile is looked at next
         else
             things.add(found);
     }
     const auto known = std::uint32_t(things.of.size()); // ids below it
     if (e.scene().instances.size() < std::max(known, 1u)) return;
+    all_ = known == 0;
     const std::uint32_t imported = e.session().base().file.empty() ? 0 : e.session().base().scene.groups.size();
     found_ = std::async(std::launch::async, [this, known, imported, s = e.scene(), up = e.up()]() mutable {
         lower_thread_priority(10);

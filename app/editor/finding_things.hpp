@@ -28,6 +28,7 @@ class FindingThings {
   private:
     std::function<void()> wake_;
     std::future<query::Things> found_;
+    bool all_ = true; // it finds those of the whole document
     std::atomic<bool> stop_ = false;
 };
 

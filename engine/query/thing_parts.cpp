@@ -113,9 +113,8 @@ class Joiner {
     }
     std::vector<glm::dvec2> outline_of(const std::vector<std::uint32_t>& whole) {
         std::vector<glm::dvec2> outline;
-        for (const std::uint32_t u : whole) {
+        for (const std::uint32_t u : whole)
             outline.insert(outline.end(), units_[u].outline.begin(), units_[u].outline.end());
-        }
         return outline;
     }
 

@@ -121,5 +121,17 @@ TEST_CASE("a click takes all of a thing, a double click a part of it, and its co
         while (e.selection.things.of.size() == known && std::chrono::steady_clock::now() < limit)
             ctx->Yield();
         IM_CHECK(e.selection.things.of.size() == h.scene().instances.size() + 1);
+
+        // A copy that is made before the things are found hides none of them.
+        e.panel_state->things.stop();
+        e.selection.things = {};
+        ctx->Yield(); // they are looked for
+        IM_CHECK(e.panel_state->things.running());
+        const std::vector originals{id};
+        const std::vector<editor::InstanceId> copied{{h.scene().instances.size()}};
+        e.selection.things.copied(originals, copied);
+        while (e.panel_state->things.running() && std::chrono::steady_clock::now() < limit)
+            ctx->Yield();
+        IM_CHECK(e.selection.things.number(id) != 0);
     });
 }
