@@ -179,10 +179,17 @@ bool WaveKernels::adopt() {
 }
 
 std::optional<CompileProgress> WaveKernels::compiling() const {
-    if (auto progress = store_.compiling()) return progress;
-    for (const Slot& slot : slots_) // built since adopt()
-        if (slot.shown && slot.wanted) return CompileProgress{.what = slot.what, .left = 1};
-    return std::nullopt;
+    auto progress = store_.compiling();
+    // First named is a type seen as its stand-in, also if it was built since adopt(): others keep their old code.
+    const auto seen = std::ranges::find_if(slots_, [](const Slot& s) { return s.shown && s.wanted && !s.now; });
+    const auto any = std::ranges::find_if(slots_, [](const Slot& s) { return s.shown && s.wanted; });
+    if (seen != slots_.end()) {
+        if (!progress) progress = CompileProgress{.left = 1};
+        progress->what = seen->what;
+    } else if (!progress && any != slots_.end()) {
+        progress = CompileProgress{.what = any->what, .left = 1};
+    }
+    return progress;
 }
 
 void WaveKernels::film_emptied() {

@@ -126,6 +126,10 @@ class Recorder {
         const std::lock_guard lock(mutex_);
         return compiled_.contains(type);
     }
+    std::set<std::string> compiled() {
+        const std::lock_guard lock(mutex_);
+        return compiled_;
+    }
     std::vector<FramePtr> frames() {
         look();
         const std::lock_guard lock(mutex_);
@@ -407,7 +411,13 @@ TEST_CASE("live frames: a new type of material shows its colour immediately, and
             }
         return sum / std::max(n, 1.0);
     };
-    CHECK(r.said("coateddiffuse"));
+    {
+        std::string all;
+        for (const auto& type : r.compiled())
+            all += type + "; ";
+        INFO(all);
+        CHECK(r.said("coateddiffuse"));
+    }
     const glm::dvec3 right = colour(*last);
     CHECK(right.g > 2 * right.r);
     std::size_t meanwhile = 0;
