@@ -63,7 +63,12 @@ class EmbreeTracer final : public Tracer {
         learning_ = false;
         bool going = true;
         if (scene.features().caustics && !caustics_.started()) {
-            RESTAGE_TRY(going, look_for_caustics(scene, film, request));
+            const bool all = scene.all_caustics();
+            if (request.provisional && !all && !caustics_.active()) {
+                RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
+            } else {
+                RESTAGE_TRY(going, look_for_caustics(scene, film, request));
+            }
         }
         if (going) {
             RESTAGE_CHECK(choose_kernels(scene, request.guiding));

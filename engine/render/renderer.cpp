@@ -177,6 +177,7 @@ TraceRequest Renderer::request() const {
 // Whether it was not stopped.
 Result<bool> Renderer::trace(TraceRequest request, const std::function<bool()>& keep_going) {
     if (guiding_->learns() || guiding_->address()) request.guiding = guiding_.get();
+    request.provisional = provisional_;
     bool stopped = false;
     request.keep_going = [&] {
         stopped = stopped || !keep_going();

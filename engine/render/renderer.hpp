@@ -28,6 +28,9 @@ class Renderer {
     // How many samples per pixel the picture will have, for techniques that pay in long renderings only; 0: those of
     // its Settings. Of pictures that begin after the call.
     void plan(std::uint32_t samples) { planned_ = samples; }
+    // Whether pictures are replaced soon by better ones, so that not all is worth its time: light is carried by photons
+    // (Technique::automatic) only if the last picture had some, and then their pilot decides again.
+    void provisional(bool is) { provisional_ = is; }
     // Adds `samples` to every pixel, or with Settings::adaptive to their mean; first restarts the film if newly
     // compiled shaders changed the picture. `keep_going` is called between batches of work (a wave of 65536 paths, a
     // rectangle of the film) and while shaders compile; false stops early and is not an error.
@@ -107,6 +110,7 @@ class Renderer {
     AdaptivePlan adaptive_plan_; // made after the pilot
     scene::Technique guiding_technique_ = scene::Technique::off;
     std::uint32_t planned_ = 0, scene_samples_ = 0; // see plan()
+    bool provisional_ = false;
     std::unique_ptr<Guiding> guiding_;
     bool revived_ = false; // and has delivered no sample since
 };

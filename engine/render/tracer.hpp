@@ -40,6 +40,7 @@ struct TraceRequest {
     std::uint32_t seed = 0;
     std::uint32_t crop_x = 0, crop_y = 0; // of the film's first pixel within the camera's
     Guiding* guiding = nullptr; // if paths are to be guided, or learned from
+    bool provisional = false;   // see Renderer::provisional
     // Called between slices of work (every 10-50 ms); false stops: the film then holds whole waves only.
     std::function<bool()> keep_going;
 };

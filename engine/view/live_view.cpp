@@ -24,12 +24,12 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double coarse_budget = 0.05;   // for the first picture after a change [s]
+constexpr double coarse_budget = 0.045;  // for the first picture after a change, traced and denoised [s]
 constexpr double coarse_pixels = 3000;   // minimum: smaller pictures at one sample per pixel denoise to dark blots
 constexpr double publish_interval = 0.3; // between pictures that only gain samples [s]
 constexpr double compile_patience = 0.15; // after this a newer request may replace a document's first picture [s]
 constexpr double clay_pixels = 200e3;     // about 30 ms on two cores
-constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 6, 8, 12, 16}; // each halved (rounded down) is in the list, or 1
+constexpr std::uint32_t dividers[] = {1, 2, 3, 4, 5, 6, 8, 12, 16}; // each halved (rounded down) is in the list, or 1
 
 struct Request {
     scene::Scene scene;
@@ -57,6 +57,8 @@ struct LiveView::Impl {
     Pictures pictures;
     ViewStatus now;
 
+    double denoise_rate = 0; // of coarse pictures [pixels/s]; 0 = not measured yet
+
     std::thread render_thread;
     std::optional<ViewDenoiser> denoiser;
 
@@ -72,6 +74,7 @@ struct LiveView::Impl {
                                            },
                                        .done =
                                            [this](auto frame) {
+                                               if (frame->divider > 1) note_denoising(*frame);
                                                put(std::move(frame));
                                                on_news();
                                            },
@@ -117,6 +120,7 @@ struct LiveView::Impl {
         glm::uvec2 size{0}; // of the full picture
         std::uint32_t divider = 1;
         double rate = 0; // pixels times samples per second
+        bool shares_cores = false; // tracing and denoising run on the same cores
         bool finished = false; // idle until a new request
         Clock::time_point last_publish;
         std::uint32_t published_samples = 0;
@@ -126,6 +130,8 @@ struct LiveView::Impl {
         lower_thread_priority(5);
         Work work;
         for (;;) {
+            // Side by side both would end later, and the next request would be older.
+            if (work.shares_cores) denoiser->finish_coarse();
             {
                 std::unique_lock lock(mutex);
                 wake_render.wait(lock, [&] { return stop || mail || new_options || (work.request && !work.finished); });
@@ -166,6 +172,7 @@ struct LiveView::Impl {
             now.tracer = work.renderer->tracer_name();
         }
         work.rate = 0;
+        work.shares_cores = work.renderer->device().info().type == gpu::DeviceType::cpu;
         if (work.request) begin(work);
     }
 
@@ -196,7 +203,7 @@ struct LiveView::Impl {
         }
         work.divider = 1;
         const double pixels = double(size.x) * size.y;
-        const double rate = work.rate > 0 ? work.rate : 1e5; // unknown yet: be conservative
+        const double rate = coarse_rate(work);
         for (const std::uint32_t d : dividers) {
             if (d > 1 && pixels / (d * d) < coarse_pixels) break;
             work.divider = d;
@@ -208,6 +215,20 @@ struct LiveView::Impl {
         if (!prepare(work)) return;
         if (!work.pictured) show_clay(work, clay_divider(work), {});
         pass(work, true);
+    }
+
+    // Pixels of a first picture per second.
+    double coarse_rate(const Work& work) {
+        const double traced = work.rate > 0 ? work.rate : 1e5; // unknown yet: be conservative
+        const std::lock_guard lock(mutex);
+        if (!work.request->options.denoise || denoise_rate <= 0) return traced;
+        return 1 / (1 / traced + 1 / denoise_rate);
+    }
+
+    void note_denoising(const Frame& frame) { // [any]
+        const std::lock_guard lock(mutex);
+        const double rate = double(frame.image.pixels()) / std::max(frame.denoise_seconds, 1e-6);
+        denoise_rate = denoise_rate > 0 ? 0.7 * denoise_rate + 0.3 * rate : rate;
     }
 
     void change_scene(Work& work) {
@@ -280,6 +301,7 @@ struct LiveView::Impl {
     bool prepare(Work& work) {
         ++work.film_version;
         if (!sync(work)) return false;
+        work.renderer->provisional(work.divider > 1);
         work.finished = false;
         work.published_samples = 0;
         return true;

@@ -4,6 +4,7 @@
 #include "base/thread_priority.hpp"
 #include "render/denoise.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -32,6 +33,13 @@ void ViewDenoiser::add(std::shared_ptr<const Frame> frame) {
         queue_.push_back(std::move(frame));
     }
     wake_.notify_one();
+}
+
+void ViewDenoiser::finish_coarse() {
+    std::unique_lock lock(mutex_);
+    rest_.wait(lock, [&] {
+        return stop_ || (!coarse_ && std::ranges::all_of(queue_, [](const auto& f) { return f->divider == 1; }));
+    });
 }
 
 void ViewDenoiser::choose(std::string name) {
@@ -67,11 +75,14 @@ void ViewDenoiser::run() {
         std::shared_ptr<const Frame> source;
         {
             std::unique_lock lock(mutex_);
+            coarse_ = false;
+            rest_.notify_all();
             wake_.wait(lock, [&] { return stop_ || !queue_.empty() || !chosen_; });
             if (stop_) return;
             if (!chosen_) continue;
             source = std::move(queue_.front());
             queue_.pop_front();
+            coarse_ = source->divider > 1;
         }
         if (!able) continue;
         const auto keep_going = [&](double) {

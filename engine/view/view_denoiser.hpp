@@ -27,6 +27,8 @@ class ViewDenoiser {
     ~ViewDenoiser(); // stops within about 50 ms
 
     void add(std::shared_ptr<const Frame> frame);
+    // Waits until no coarse picture (divider > 1) is queued or being denoised.
+    void finish_coarse();
     // Selects the denoiser, also for the last picture; see render::choose_denoiser.
     void choose(std::string name);
 
@@ -37,12 +39,13 @@ class ViewDenoiser {
     const plugin::Registry& registry_;
     Host host_;
     std::mutex mutex_;
-    std::condition_variable wake_;
+    std::condition_variable wake_, rest_;
     bool stop_ = false;
     std::deque<std::shared_ptr<const Frame>> queue_; // at most a coarse one and the full one
     std::shared_ptr<const Frame> last_; // last added
     std::string name_;
     bool chosen_ = false; // the thread has taken `name_`
+    bool coarse_ = false; // it is busy with a coarse picture
     std::thread thread_;
 };
 

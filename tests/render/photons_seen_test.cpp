@@ -52,6 +52,25 @@ TEST_CASE("caustics: auto leaves to paths what they can find and the picture har
     CHECK((with(b, scene::Technique::on).color != off.color));
 }
 
+TEST_CASE("caustics: a provisional picture has photons if the last one had some") {
+    SceneBuilder b;
+    mirror_and_lamp(b, false);
+    b.set_camera({1.5, 0, 2}, {1.5, 0, 0}, {0, 1, 0}, 40);
+    const auto off = with(b, scene::Technique::off), on = with(b, scene::Technique::automatic);
+    REQUIRE((off.color != on.color));
+    const auto renderer = make_renderer("embree");
+    const auto again = [&](bool provisional) {
+        renderer->provisional(provisional);
+        renderer->reset();
+        REQUIRE(renderer->trace(16).has_value());
+        return renderer->image().color;
+    };
+    REQUIRE(renderer->sync(b.scene).has_value());
+    CHECK((again(true) == off.color));
+    CHECK((again(false) == on.color));
+    CHECK((again(true) == on.color));
+}
+
 TEST_CASE("caustics: photons start where they were seen, and everywhere else too") {
     const std::size_t sources = GENERATE(1u, 3u, 100u);
     render::PhotonStarts starts(sources);
