@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/thing_parts.hpp"
 
+#include <array>
 #include <cstddef>
 
 namespace restage::query {
@@ -12,6 +13,8 @@ using scene::Bounds;
 
 constexpr double foot = 0.12;             // height of the part that stands on something, relative to the whole
 constexpr double small_footprint = 0.35;  // of what is put onto something, relative to that
+constexpr int cells = 24;                 // of a grid over a footprint, across
+constexpr double wider = 1.1;             // than what lies on its edge: a panel, no leg
 constexpr double thin = 0.02;             // height of rugs and sheets, relative to their length
 constexpr double spans = 0.85;            // width of what is built onto something, relative to that
 constexpr double steady = 0.1;            // width of what stands by itself, relative to its height
@@ -25,7 +28,7 @@ class Joiner {
         : units_(units), touching_(touching), joined_(units.size()) {}
 
     Union join() {
-        std::vector<Pair> carried, leaning, standing; // standing: the first on the second
+        std::vector<Pair> carried, leaning, standing; // carried, standing: the first on the second
         for (const auto& [pair, contact] : touching_) {
             const auto [u, v] = pair;
             Unit &a = units_[u], &b = units_[v];
@@ -41,10 +44,15 @@ class Joiner {
                     standing.push_back({u, v});
                 else if (b_stands && is_small({v}, u))
                     standing.push_back({v, u});
-                else if (!a.mesh || a.mesh != b.mesh) // copies: a fence
-                    (a_stands || b_stands ? carried : leaning).push_back(pair);
+                else if (!a.mesh || a.mesh != b.mesh) { // else copies: a fence
+                    if (a_stands || b_stands)
+                        carried.push_back(a_stands ? Pair{u, v} : Pair{v, u});
+                    else
+                        leaning.push_back(pair);
+                }
             }
         }
+        drop_edges(carried, leaning);
         // What rests by itself has its own place.
         std::vector<Pair> unsteady;
         for (const Pair& pair : standing)
@@ -57,7 +65,7 @@ class Joiner {
             if (units_[pair.first].mounted < panel && units_[pair.second].mounted < panel)
                 joined_.join(pair.first, pair.second);
             else
-                leaning.push_back(pair);
+                leaning.emplace_back(std::minmax(pair.first, pair.second));
         for (const Pair& pair : leaning)
             if (!units_[pair.first].anchored && !units_[pair.second].anchored) joined_.join(pair.first, pair.second);
         // Parts may be small, and the whole large: a sofa on its legs.
@@ -77,9 +85,16 @@ class Joiner {
         // The rest only leans together. It belongs together where a side has no place of its own, or is inside the
         // other.
         spread_anchors(units_, joined_);
+        std::vector<bool> stood(units_.size(), false); // without a place of its own, but at something off the walls
+        for (const auto& [u, v] : leaning) {
+            if (!units_[u].anchored && units_[v].anchored && units_[v].mounted < panel) stood[u] = true;
+            if (!units_[v].anchored && units_[u].anchored && units_[u].mounted < panel) stood[v] = true;
+        }
         for (const Pair& pair : leaning) {
             const Unit &a = units_[pair.first], &b = units_[pair.second];
-            if (!a.anchored || !b.anchored || inside(a, b, touching_.at(pair).gap))
+            const bool by_the_way = (!a.anchored && stood[pair.first] && b.mounted >= panel) ||
+                                    (!b.anchored && stood[pair.second] && a.mounted >= panel);
+            if (((!a.anchored || !b.anchored) && !by_the_way) || inside(a, b, touching_.at(pair).gap))
                 joined_.join(pair.first, pair.second);
         }
         spread_anchors(units_, joined_);
@@ -99,6 +114,58 @@ class Joiner {
         return *high <= std::max(foot * a.box.size().z, 3 * contact.gap);
     }
 
+    // A table that stands on its legs, with an edge on a panel of the wall, only leans there.
+    void drop_edges(std::vector<Pair>& carried, std::vector<Pair>& leaning) {
+        const auto holds_it = [&](const Pair& pair) { return rests({pair.first}, pair.second, {&pair, 1}); };
+        std::vector<std::uint32_t> held; // by one unit
+        for (const Pair& pair : carried)
+            if (holds_it(pair)) held.push_back(pair.first);
+        std::erase_if(carried, [&](const Pair& pair) {
+            const Rectangle& top = units_[pair.first].footprint;
+            const Rectangle under(units_[pair.second].outline, top.angle);
+            const bool wide = under.size.x > wider * top.size.x || under.size.y > wider * top.size.y;
+            if (!wide || std::ranges::find(held, pair.first) == held.end() || holds_it(pair)) return false;
+            leaning.emplace_back(std::minmax(pair.first, pair.second));
+            return true;
+        });
+    }
+
+    // Whether `outline`, seen on this footprint, is several pieces that are small together and each by itself: plates.
+    static bool small_pieces(std::span<const glm::dvec2> outline, const Rectangle& under) {
+        const glm::dvec2 x(std::cos(under.angle), std::sin(under.angle)), y(-x.y, x.x);
+        const glm::dvec2 lower = under.center - 0.5 * under.size;
+        std::array<bool, cells * cells> covered{};
+        for (const glm::dvec2& p : outline) {
+            const glm::dvec2 at = (glm::dvec2(glm::dot(p, x), glm::dot(p, y)) - lower) / under.size * double(cells);
+            const glm::ivec2 cell(glm::floor(glm::clamp(at, -1.0, double(cells))));
+            if (cell.x < 0 || cell.y < 0 || cell.x >= cells || cell.y >= cells) return false;
+            covered[std::size_t(cell.y * cells + cell.x)] = true;
+        }
+        const auto all = std::ranges::count(covered, true);
+        std::size_t pieces = 0;
+        for (std::size_t first = 0; first < covered.size(); ++first) {
+            if (!covered[first]) continue;
+            glm::ivec2 low(cells), high(-1);
+            std::vector<std::size_t> open{first};
+            covered[first] = false;
+            while (!open.empty()) {
+                const glm::ivec2 at(open.back() % cells, open.back() / cells);
+                open.pop_back();
+                low = glm::min(low, at), high = glm::max(high, at);
+                for (int dy = -1; dy <= 1; ++dy)
+                    for (int dx = -1; dx <= 1; ++dx) {
+                        const glm::ivec2 to = at + glm::ivec2(dx, dy);
+                        const bool in = to.x >= 0 && to.y >= 0 && to.x < cells && to.y < cells;
+                        if (in && std::exchange(covered[std::size_t(to.y * cells + to.x)], false))
+                            open.push_back(std::size_t(to.y * cells + to.x));
+                    }
+            }
+            ++pieces;
+            if (std::max(high.x - low.x, high.y - low.y) + 1 > spans * cells) return false;
+        }
+        return pieces > 1 && double(all) <= small_footprint * cells * cells;
+    }
+
     // Whether there is room beside `whole` on unit b; a rug's furniture may be as large as the rug.
     bool is_small(const std::vector<std::uint32_t>& whole, std::uint32_t b) {
         const Rectangle& under = units_[b].footprint;
@@ -108,8 +175,9 @@ class Joiner {
         if (sheet || stacked) return true;
         const std::vector<glm::dvec2> outline = outline_of(whole);
         const glm::dvec2 across = Rectangle(outline, under.angle).size / glm::max(under.size, glm::dvec2(1e-300));
-        return Rectangle::smallest(outline).area() <= small_footprint * under.area() &&
-               std::max(across.x, across.y) <= spans;
+        const bool one_small = Rectangle::smallest(outline).area() <= small_footprint * under.area() &&
+                               std::max(across.x, across.y) <= spans;
+        return one_small || small_pieces(outline, under);
     }
     std::vector<glm::dvec2> outline_of(const std::vector<std::uint32_t>& whole) {
         std::vector<glm::dvec2> outline;

@@ -47,6 +47,23 @@ struct Shop {
                      .group = group,
                      .object_to_world = turned * glm::scale(glm::translate(glm::dmat4(1), lower), upper - lower)});
     }
+    Id<Instance> boxes(const std::vector<std::pair<glm::dvec3, glm::dvec3>>& all) { // of one mesh
+        const Id<Mesh> one = cube();
+        const MeshData& unit = *scene.meshes[one].data;
+        auto data = std::make_shared<MeshData>();
+        for (const auto& [lower, upper] : all) {
+            const auto first = std::uint32_t(data->positions.size());
+            for (const glm::vec3& p : unit.positions)
+                data->positions.push_back(glm::vec3(lower) + p * glm::vec3(upper - lower));
+            for (const glm::uvec3& t : unit.triangles)
+                data->triangles.push_back(t + first);
+        }
+        compute_bounds(*data);
+        return add(Instance{.name = "boxes",
+                            .mesh = add(Mesh{.name = "boxes", .data = std::move(data)}),
+                            .group = group,
+                            .object_to_world = turned});
+    }
     // Four legs, a seat, a back.
     Ids chair(glm::dvec3 at) {
         Ids parts;
@@ -113,6 +130,32 @@ TEST_CASE("what rests on something is a thing of its own", "[things]") {
     CHECK((taken(shop, things, plates[0]) == Ids{plates[0]}));
     CHECK((taken(shop, things, plates[1]) == Ids{plates[1]}));
     CHECK((taken(shop, things, rug[0]) == rug));
+}
+
+TEST_CASE("a laid table is its top and legs, at a panel of the wall, and what is laid in one mesh", "[things]") {
+    Shop shop;
+    const auto four = [&](glm::dvec3 lower, glm::dvec3 upper, glm::dvec2 apart) {
+        std::vector<std::pair<glm::dvec3, glm::dvec3>> all;
+        for (int i = 0; i < 4; ++i) {
+            const glm::dvec3 at(i & 1 ? apart.x : 0, i & 2 ? apart.y : 0, 0);
+            all.emplace_back(lower + at, upper + at);
+        }
+        return shop.boxes(all);
+    };
+    const auto legs = four({0, 2, 0}, {0.08, 2.08, 0.7}, {1.02, 1.7});
+    const auto top = shop.box({-0.05, 1.97, 0.7}, {1.15, 3.84, 0.74});
+    const auto apron = shop.box({0.08, 2.03, 0.6}, {1.02, 3.81, 0.67}); // between the legs, below the top
+    const bool wide = GENERATE(true, false);
+    const auto panel = shop.box({wide ? -0.5 : 0.1, 3.83, 0}, {wide ? 1.6 : 1.0, 3.9, 0.72});
+    const auto mats = four({0.05, 2.1, 0.74}, {0.48, 2.4, 0.745}, {0.55, 1.3});
+    const auto plates = four({0.15, 2.15, 0.745}, {0.38, 2.35, 0.765}, {0.55, 1.3});
+    const query::Things things = shop.find();
+    Ids table{legs, top, apron};
+    std::sort(table.begin(), table.end());
+    CHECK(taken(shop, things, top) == table);
+    CHECK(taken(shop, things, legs) == table);
+    for (const auto id : {panel, mats, plates})
+        CHECK(taken(shop, things, id) == Ids{id});
 }
 
 TEST_CASE("furniture on a rug, cabinets in a row and knobs", "[things]") {
