@@ -199,6 +199,21 @@ std::vector<InstanceId> Viewport::in_box(const PanelContext& e, ImVec2 from, ImV
     return ids;
 }
 
+// After a double click: enters the whole. On nothing, or on a single object, the point there becomes the centre of
+// orbits, and the click counts as usual: false.
+bool Viewport::go_in(PanelContext& e, InstanceId id) {
+    if (const Whole whole = e.selection.click_whole(e.scene(), id);
+        whole && e.selection.click_target(e.scene(), id).size() > 1) {
+        e.selection.enter(whole);
+        e.selection.set(e.selection.click_target(e.scene(), id));
+        return true;
+    }
+    const query::ViewRay ray = query::view_ray(e.camera(), film_point(ImGui::GetIO().MousePos), e.film_aspect());
+    if (const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
+        orbit_center_ = hits[0].position;
+    return false;
+}
+
 void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto pickable = [&](InstanceId id) { return id && !e.locked.contains(id.value) ? id : InstanceId{}; };
@@ -207,22 +222,9 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (run_measuring(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
-    if (free && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-        // Enters the whole; on nothing, or on a single object, the point there becomes the centre of orbits.
-        const InstanceId id = pickable(picked_at(e, io.MousePos));
-        if (const Whole whole = e.selection.click_whole(e.scene(), id);
-            whole && e.selection.click_target(e.scene(), id).size() > 1) {
-            e.selection.enter(whole);
-            e.selection.set(e.selection.click_target(e.scene(), id));
-            pressed_ = false;
-            return;
-        }
-        const query::ViewRay ray = query::view_ray(e.camera(), film_point(io.MousePos), e.film_aspect());
-        if (const auto hits = query::raycast_all(e.scene(), ray.origin, ray.direction); !hits.empty())
-            orbit_center_ = hits[0].position;
-    }
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         pressed_ = true;
+        pressed_twice_ = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
         press_ = io.MousePos;
     }
     if (!pressed_) {
@@ -255,6 +257,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
         e.selection.set(ids, mode);
         return;
     }
+    if (pressed_twice_ && go_in(e, pickable(picked_at(e, io.MousePos)))) return;
     // A light's mark comes first.
     const scene::Id<scene::Light> light = e.view.show_overlays ? light_at(e, io.MousePos) : scene::Id<scene::Light>{};
     if (light) {

@@ -60,6 +60,7 @@ class Viewport {
     void draw_hint(PanelContext& editor); // at a user's first start, until the first gesture
     void draw_welcome(PanelContext& editor, ImVec2 origin, ImVec2 space); // without a scene
     void navigate(PanelContext& editor, bool over);
+    bool go_in(PanelContext& editor, InstanceId id);
     void pick(PanelContext& editor, bool over, const GizmoState& gizmo);
     bool can_drag(const PanelContext& editor, ImVec2 screen) const; // over something selected
     void start_sliding(PanelContext& editor, ImVec2 screen);
@@ -90,7 +91,7 @@ class Viewport {
     double wheel_time_ = 0;                  // of the last turn
     Drag slide_; // of a drag of the object itself, or the knob
     ImVec2 press_{0, 0};
-    bool pressed_ = false, boxing_ = false, sticking_ = false;
+    bool pressed_ = false, pressed_twice_ = false, boxing_ = false, sticking_ = false;
     bool on_knob_ = false; // the knob was pressed
     bool cone_held_ = false; // the handle of a spot's cone
     bool cancelled_ = false; // until all buttons and T are released

@@ -30,9 +30,18 @@ def during(editor, act):
 
 
 def choose_type(editor, name):
-    """Opens the list of material types and clicks one."""
+    """Opens the list of material types, scrolls to one and clicks it."""
     editor.click("material.type")
-    editor.click(f"material.type.{name}")
+    mark = f"material.type.{name}"
+    for _ in range(40):
+        x, y = editor.point(mark)
+        if 40 < y < editor.size[1] - 40:
+            break
+        marks = editor.state()["marks"]
+        seen = [at for other in marks if other.startswith("material.type.") and 40 < (at := editor.point(other))[1] < editor.size[1] - 40]
+        editor.click(seen[len(seen) // 2], button=5 if y > 40 else 4)
+    editor.click(mark)
+    editor.wait(lambda s: s["selection"][0]["type"] == name, f"the type {name}", 20)
 
 
 def new_type(editor, name):
@@ -65,7 +74,7 @@ def measure(binary, scene, picture_of_object):
             editor.wait(lambda s: s["view"]["divider"] == 1 and s["view"]["denoised_samples"] > 0, "a denoised one", 180)
             whole = time.monotonic() - started
             rows = {"orbit": during(editor, lambda: editor.drag(("picture", 0.4, 0.3), ("picture", 0.6, 0.35), keys=["alt"], steps=40))}
-            editor.key("ctrl+z")
+            editor.key("bracketleft")  # the view as it was
             editor.click(("picture", *picture_of_object))
             editor.wait(lambda s: s["selection"], "a selection", 20)
             x, y = editor.point("gizmo.x")

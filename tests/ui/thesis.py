@@ -119,28 +119,18 @@ class Hand:
     def screen(self, point):
         return self.e.point(("picture", *project(point)))
 
-    def number(self, mark, part, text, what):
-        """Ctrl + click on the part-th of the three fields of a widget, and a number typed into it."""
-        self.e.point(mark)  # once it is stable
-        x0, y0, x1, y1 = self.state()["marks"][mark]
+    def preset(self, name, where):
+        """Finds a material in the library by its name and drags it to this place."""
+        if "materials.search" not in self.state()["marks"]:
+            self.click("tab.Materials")
+        self.e.click("materials.search")
+        self.e.key("ctrl+a")
+        self.e.type(name)
+        self.note(f"search {name}", POINT + 2 * BUTTON + HAND + KEY * (len(name) + 2))
         before = self.steps()
-        at = (int(x0 + (x1 - x0) * (0.12 + 0.27 * part)), int((y0 + y1) / 2))
-        self.e.click(at, keys=["ctrl"])
-        time.sleep(0.5)
-        self.e.type(text)
-        self.e.key("Return")
-        self.e.wait(lambda s: s["history"]["position"] > before, what, 10)
-        self.note(what, POINT + 2 * BUTTON + HAND + KEY * (len(text) + 2))
-
-    def color(self, rgb, what, mark="material.reflectance"):
-        for part, value in enumerate(rgb):
-            self.number(mark, part, f"{value:.2f}", f"{what}, {'RGB'[part]}")
-
-    def untexture(self, mark="material.reflectance"):
-        self.click(mark + ".texture")
-        before = self.steps()
-        self.click(mark + ".texture.remove")
-        self.e.wait(lambda s: s["history"]["position"] > before, "no texture", 10)
+        self.e.drag(f"materials.{name}", where, steps=12)
+        self.e.wait(lambda s: s["history"]["position"] > before, f"{name} given", 20)
+        self.note(f"drag {name}", 2 * POINT + 2 * BUTTON)
 
 
 # The kitchen's camera, from its file: world to camera.
@@ -168,21 +158,15 @@ def another_kitchen(hand):
     hand.key("Delete")
     hand.e.wait(lambda s: s["counts"]["instances"] == 299 - 43, "no island")
 
-    # The chairs at the near end of the table: each grouped; and a copy of each, nearer.
+    # A copy of each chair at the near end of the table, nearer.
     for at, material, count in (((1.09, 1.01, -1.27), "TableCross", 18), ((-0.555, 1.03, -1.15), "TableCross", 14)):
         hand.click(("picture", *project(at)), material)
-        hand.key("c")
-        hand.e.wait(lambda s: s["selected"] >= count, "a whole chair", 5)
-        hand.key("ctrl+g")
+        assert hand.state()["selected"] >= count, hand.names()
         hand.slide(at, np.array([0, 0, LONGER]), "another chair", copy=True)
-        hand.key("End")
 
-    # The table: top, legs, frame; longer, and its far end at the window again.
+    # The table, longer, and its far end at the window again.
     hand.click(("picture", *project((0.15, 0.86, -0.80))), "Tabletop")
-    hand.click(("picture", *project((0.62, 0.4, -0.78))), "TableCross", keys=["ctrl"])
-    for frame in ("TableCross 47", "TableCross 46"):  # occluded, but listed next to the legs
-        hand.click(f"outliner.{frame}", "TableCross", keys=["ctrl"])
-    assert hand.names() == ["TableCross 46", "TableCross 47", "TableCross 48", "Tabletop"]
+    assert hand.names() == ["TableCross 46", "TableCross 47", "TableCross 48", "Tabletop"], hand.names()
     hand.key("r")
     center, handle = (np.array(hand.e.point(mark), float) for mark in ("gizmo.center", "gizmo.z"))
     hand.pull("gizmo.z", (handle - center) / np.linalg.norm(handle - center) * 6,
@@ -190,42 +174,27 @@ def another_kitchen(hand):
     hand.key("w")
     lower, upper = hand.box()
     hand.slide((0.15, 0.86, upper[2] - 0.15), np.array([0, 0, -2.46 - lower[2]]), "the table to the window")
-    hand.key("ctrl+l")  # locked: things on it can be picked without it
 
-    # Four more places.
+    # Four more places: what is on the table, but not the table.
     hand.click(("picture", *project((-0.16, 0.878, -1.12))), "Plates")
     hand.key("c")
     hand.slide((-0.16, 0.878, -1.12), np.array([0, 0, LONGER]), "four more places", copy=True)
 
     # Another lamp.
     hand.click(LAMP, "Lamp")
-    hand.key("c")
     hand.slide((0.19, 2.3, -1.6), np.array([0, 0, 1.3]), "another lamp", copy=True)
 
-    # The wall with the window, and the others.
-    hand.click(WALL, "Walls")
-    hand.click("material.unique")
-    hand.color((0.55, 0.66, 0.58), "the wall at the window in sage")
-    hand.click(("picture", 0.30, 0.13), "Walls")
-    hand.color((0.97, 0.93, 0.82), "the other walls in cream")
-    hand.key("Escape")
+    # The wall with the window, and the others, from the library.
+    hand.preset("Paint, foliage green", WALL)
+    hand.preset("Egg shell, white", ("picture", 0.30, 0.13))
 
 
 def other_materials(hand):
-    hand.click(("picture", 0.724, 0.937), "Floor")
-    hand.untexture()
-    hand.color((0.30, 0.36, 0.38), "the floor slate")
-    hand.click(("picture", 0.13, 0.90), "CupboardUnits")
-    hand.color((0.16, 0.25, 0.36), "the cupboards navy")
-    hand.click(("picture", 0.07, 0.786), "Worktops")
-    hand.untexture()
-    hand.color((0.92, 0.91, 0.88), "the worktops white")
-    hand.click(("picture", 0.385, 0.85), "SmallWorktop")
-    hand.untexture()
-    hand.color((0.92, 0.91, 0.88), "the island's worktop white")
-    hand.click(WALL, "Walls")
-    hand.color((0.90, 0.80, 0.68), "the walls in apricot")
-    hand.key("Escape")
+    hand.preset("Asphalt", ("picture", 0.724, 0.937))
+    hand.preset("Paint, blue", ("picture", 0.13, 0.90))
+    hand.preset("Marble, polished", ("picture", 0.07, 0.786))
+    hand.preset("Marble, polished", ("picture", 0.385, 0.85))
+    hand.preset("Cream", WALL)
 
 
 def save(hand, path):

@@ -3,6 +3,7 @@
 #include "headless.hpp"
 #include "temporary_folder.hpp"
 
+#include <imgui_te_internal.h>
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -91,6 +92,21 @@ TEST_CASE("a click takes all of a thing, a double click a part of it, and its co
         ctx->MouseClick(); // elsewhere, so that the next is not the object behind
         ctx->Yield(3);
         IM_CHECK(selected(h) == std::set<std::string>{"Box"});
+        // A second press soon after a click drags all of it.
+        click(false);
+        const ImVec2 from = *screen("Top");
+        const auto before = h.scene().instances[id].object_to_world;
+        ctx->Inputs->MouseButtonsValue = 1; // MouseDown() prevents double clicks
+        ctx->Yield(2);
+        IM_CHECK(ctx->UiContext->IO.MouseClickedLastCount[0] == 2);
+        ctx->MouseMoveToPos({from.x + 40, from.y});
+        ctx->MouseUp();
+        ctx->Yield(3);
+        IM_CHECK(parts(5) && h.scene().instances[id].object_to_world != before);
+        e.run("edit.undo");
+        e.run("select.none");
+        ctx->Yield(3);
+
         click(true);
         IM_CHECK(selected(h) == std::set<std::string>{"Top"});
         IM_CHECK(bool(e.selection.entered()));
