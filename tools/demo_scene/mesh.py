@@ -215,8 +215,8 @@ def planar_uv(mesh, scale_=1.0, grain=1):
     return Mesh(mesh.v, mesh.n, uv * scale_, mesh.f)
 
 
-def rounded_box(size, radius, steps=3, grain=None):
-    """A box centred at the origin with rounded edges and corners; uvs in metres."""
+def rounded_box(size, radius, steps=3, grain=None, cuts=0):
+    """A box centred at the origin with rounded edges and corners, its faces cut `cuts` times; uvs in metres."""
     h = np.asarray(size, float) / 2
     r = min(radius, *h)
     angle = np.linspace(-np.pi / 4, 0, steps + 1)
@@ -224,9 +224,10 @@ def rounded_box(size, radius, steps=3, grain=None):
     for axis in range(3):
         a, b = (axis + 1) % 3, (axis + 2) % 3
         for sign in (1, -1):
-            ticks = [
-                np.concatenate([-h[k] + r + r * np.tan(angle), h[k] - r - r * np.tan(angle[::-1])]) for k in (a, b)
-            ]
+            ticks = []
+            for k in (a, b):
+                bend, flat = r + r * np.tan(angle), np.linspace(r - h[k], h[k] - r, cuts + 2)[1:-1]
+                ticks.append(np.concatenate([-h[k] + bend, flat, h[k] - bend[::-1]]))
             q = np.zeros((len(ticks[0]), len(ticks[1]), 3))
             q[..., a], q[..., b], q[..., axis] = ticks[0][:, None], ticks[1][None, :], sign * h[axis]
             inner = np.clip(q, -(h - r), h - r)
@@ -235,6 +236,18 @@ def rounded_box(size, radius, steps=3, grain=None):
             parts.append(Mesh(inner + r * n, n, np.zeros(n.shape[:2] + (2,)), f if sign > 0 else f[:, ::-1]))
     m = merge(*parts)
     return planar_uv(m, grain=int(first_largest(h)) if grain is None else grain)
+
+
+def cushion(size, radius, crown, steps=4, cuts=6):
+    """A rounded box whose top and bottom bulge by `crown` metres in the middle."""
+    m = rounded_box(size, radius, steps, cuts=cuts)
+    hx, hy, hz = np.asarray(size, float) / 2
+    x, y, z = m.v.T
+    u, v = 1 - (x / hx) ** 2, 1 - (y / hy) ** 2
+    grown = 1 + crown / hz * u * v
+    slope = np.stack([-2 * x / hx**2 * v, -2 * y / hy**2 * u], 1) * (z * crown / hz / grown)[:, None]
+    n = np.column_stack([m.n[:, :2] - m.n[:, 2:] * slope, m.n[:, 2] / grown])
+    return Mesh(np.stack([x, y, z * grown], 1), _normalised(n), m.uv, m.f)
 
 
 def box_between(lo, hi, radius=0.003, steps=2, grain=None):

@@ -228,7 +228,6 @@ def picture(scene, x, z):
     scene.texture("print", "spectrum", "picture.png")
     scene.material("Print", "coateddiffuse", reflectance=("texture", "print"), roughness=0.35)
     scene.material("Mount board", "diffuse", reflectance=(0.78, 0.75, 0.68))
-    scene.material("Silver mirror", "conductor", eta="metal-Ag-eta", k="metal-Ag-k", roughness=0.0)
     w, h, mount = 0.60, 0.80, 0.075
     art = quad((-w / 2 + mount, -0.008, -h / 2 + mount), (w - 2 * mount, 0, 0), (0, 0, h - 2 * mount))
     art.uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
@@ -243,6 +242,7 @@ def picture(scene, x, z):
 
 
 def mirror(scene, x, z, radius=0.24):
+    scene.material("Silver mirror", "conductor", eta="metal-Ag-eta", k="metal-Ag-k", roughness=0.0)
     rim = lathe(
         fillet(
             [

@@ -13,13 +13,25 @@ def numbers(values):
     return " ".join(f"{float(x):.6g}" for x in np.round(np.ravel(np.asarray(values, float)), 9) + 0.0)
 
 
+def note(generator):
+    return f"# SPDX-License-Identifier: CC0-1.0\n# Written by {generator}: edit that, or this; not both.\n"
+
+
+def emptied(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+
+
 class Scene:
+    textures = "textures"
+
     def __init__(self, folder):
+        emptied(folder / "geometry")
+        emptied(folder / "textures")
+        self.begin(folder)
+
+    def begin(self, folder):
         self.folder = folder
-        for name in ("geometry", "textures"):
-            shutil.rmtree(folder / name, ignore_errors=True)
-        (folder / "geometry").mkdir(parents=True)
-        (folder / "textures").mkdir(parents=True)
         self.materials, self.objects, self.placings, self.count, self.triangles = [], [], [], {}, 0
 
     def section(self, title):
@@ -30,7 +42,7 @@ class Scene:
 
     def texture(self, name, kind, filename, **params):
         """kind is spectrum or float; params become \"string x\" or \"float x\"."""
-        lines = [f'Texture "{name}" "{kind}" "imagemap"', f'    "string filename" [ "textures/{filename}" ]']
+        lines = [f'Texture "{name}" "{kind}" "imagemap"', f'    "string filename" [ "{self.textures}/{filename}" ]']
         for key, value in params.items():
             lines.append(
                 f'    "string {key}" [ "{value}" ]' if isinstance(value, str) else f'    "float {key}" [ {value} ]'
@@ -73,13 +85,11 @@ class Scene:
         self.placings.append("\n".join(lines + [f'    ObjectInstance "{name}"', "AttributeEnd"]))
 
     def write(self, filename, head, lights):
-        note = (
-            "# SPDX-License-Identifier: CC0-1.0\n# Written by tools/make_demo_scene.py: edit that, or this; not both.\n"
-        )
-        (self.folder / "materials.pbrt").write_text(note + "\n".join(self.materials) + "\n")
-        (self.folder / "objects.pbrt").write_text(note + "\n".join(self.objects) + "\n")
+        top = note("tools/make_demo_scene.py")
+        (self.folder / "materials.pbrt").write_text(top + "\n".join(self.materials) + "\n")
+        (self.folder / "objects.pbrt").write_text(top + "\n".join(self.objects) + "\n")
         (self.folder / filename).write_text(
-            note
+            top
             + head
             + "\nWorldBegin\n"
             + lights
@@ -87,3 +97,33 @@ class Scene:
             + "\n".join(self.placings)
             + "\n"
         )
+
+
+class Piece(Scene):
+    """A scene of one file, next to others in a folder; its textures are those of the demo scene in the next folder."""
+
+    textures = "../demo/textures"
+
+    def __init__(self, folder, demo_meshes=False):
+        """With demo_meshes the meshes are the demo scene's, too, and not written again."""
+        self.begin(folder)
+        self.demo_meshes = demo_meshes
+
+    def mesh(self, name, mesh):
+        if not self.demo_meshes:
+            return super().mesh(name, mesh)
+        self.triangles += len(mesh.f)
+        return f'Shape "plymesh"\n        "string filename" [ "../demo/geometry/{name}.ply" ]'
+
+    def shape(self, name, material, shape, emission=None, at=None):
+        """One thing without ObjectBegin: pbrt's objects cannot emit. emission: radiance, rgb; at: its centre [m]."""
+        lines = [f"# name: {name}", "AttributeBegin", f'    NamedMaterial "{material}"']
+        if emission is not None:
+            lines += ['    AreaLightSource "diffuse"', f'        "rgb L" [ {numbers(emission)} ]']
+        if at is not None:
+            lines.append(f"    Translate {numbers(at)}")
+        self.placings.append("\n".join(lines + [f"    {shape}", "AttributeEnd"]))
+
+    def write(self, filename, head="", lights=""):
+        blocks = [note("tools/make_room_scene.py") + head + "\nWorldBegin\n" + lights]
+        (self.folder / filename).write_text("\n".join(blocks + self.materials + self.objects + self.placings) + "\n")
