@@ -15,7 +15,7 @@ from make_demo_scene import SKY_SCALE, SUN_IRRADIANCE, sun_from
 
 EYE, TARGET, FOV = (4.02, -4.52, 1.28), (1.62, -0.90, 1.28), 46.0
 PART_FOV = 26.0
-BRIGHTNESS = 1.4  # of sun and sky, in place of a longer exposure
+BRIGHTNESS = 1.25  # of sun and sky, in place of a longer exposure
 
 
 def head():
@@ -59,7 +59,7 @@ AttributeEnd
 
 
 def write_room(folder):
-    emptied(folder / "geometry")
+    emptied(folder)
     scene = Piece(folder)
     bedroom.room(scene)
     scene.write("room.pbrt", head(), lights())
@@ -81,7 +81,7 @@ Film "rgb"
 
 
 def write_parts(folder):
-    emptied(folder / "geometry")
+    emptied(folder)
     total = 0
     for part in parts.PARTS:
         scene = Piece(folder, part.of_the_demo)

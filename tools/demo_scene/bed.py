@@ -87,7 +87,7 @@ def frame():
     """Rails, legs and slats' edge in oak."""
     w, foot = WIDTH / 2 + 0.035, -LENGTH / 2 - 0.035
     parts = [
-        box_between((sx * w - 0.014, foot + 0.02, 0.13), (sx * w + 0.014, HEAD, RAIL), 0.006, 3, grain=1) for sx in (-1, 1)
+        box_between((sx * w - 0.014, foot + 0.02, 0.13), (sx * w + 0.014, HEAD, RAIL), 0.006, 2, grain=1) for sx in (-1, 1)
     ]
     parts.append(box_between((-w - 0.014, foot, 0.13), (w + 0.014, foot + 0.028, RAIL), 0.006, 3, grain=0))
     parts.append(box_between((-w, foot + 0.01, 0.20), (w, HEAD, 0.222), 0.002, grain=0))

@@ -50,12 +50,12 @@ def walls():
 
 
 def around(profile):
-    """A profile (distance from the wall, z) along the visible walls, mitred at the two corners."""
+    """A profile (distance from the wall, z) along the visible walls, its ends open: they lie in walls."""
     w, d = WIDTH, DEPTH
     return merge(
-        sweep([(0, -d, 0), (0, 0, 0)], profile),
-        sweep([(0, 0, 0), (w, 0, 0)], profile),
-        sweep([(w, 0, 0), (w, -d, 0)], profile),
+        sweep([(0, -d, 0), (0, 0, 0)], profile, caps=False),
+        sweep([(0, 0, 0), (w, 0, 0)], profile, caps=False),
+        sweep([(w, 0, 0), (w, -d, 0)], profile, caps=False),
     )
 
 
@@ -96,7 +96,7 @@ def window(scene):
     sill = box_between((-0.12, y0 - 0.06, z0 - 0.014), (0.070, y1 + 0.06, z0 + 0.018), 0.008, 3)
     rosette = lathe(fillet([(0, 0), (0.014, 0), (0.014, 0.005), (0.006, 0.007), (0.006, 0.026), (0, 0.026)], 0.001, 2), 20)
     at = translate(x1 + 0.010, middle, 1.20) @ rotate((0, 1, 0), 90)
-    lever = box_between((x1 + 0.030, middle - 0.009, 1.085), (x1 + 0.042, middle + 0.009, 1.212), 0.006, 3)
+    lever = box_between((x1 + 0.030, middle - 0.009, 1.085), (x1 + 0.042, middle + 0.009, 1.212), 0.005, 3)
     scene.shape("Window frame", "White gloss paint", scene.mesh("window-frame", merge(*parts)))
     scene.shape("Window sill", "White gloss paint", scene.mesh("window-sill", sill))
     scene.shape("Window handle", "Brushed brass", scene.mesh("window-handle", merge(rosette.moved(at), lever)))

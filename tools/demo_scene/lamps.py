@@ -30,7 +30,7 @@ def table_lamp(scene):
         6,
     )
     foot = fillet([(0, 0), (0.058, 0), (0.062, 0.006)], [0, 0.003, 0], 3)
-    body = lathe(np.concatenate([foot[:-1], belly, [(0, 0.245)]]), 48)
+    body = lathe(np.concatenate([foot[:-1], belly, [(0, 0.245)]]), 44)
     neck = lathe(
         fillet([(0, 0.243), (0.015, 0.243), (0.015, 0.262), (0.007, 0.268), (0.007, 0.318), (0, 0.318)], 0.002, 3), 28
     )

@@ -112,20 +112,20 @@ def curtains(scene):
     scene.section("Curtains")
     brass(scene)
     scene.material("Curtain linen", "diffusetransmission", reflectance=(0.45, 0.43, 0.385), transmittance=(0.36, 0.33, 0.27))
-    away, high, end = 0.11, 2.475, 1.42
+    away, high, end = 0.135, 2.475, 1.42
     # The demo scene's curtains hang in the plane x = 0; a quarter turn takes their +x to -y.
     panels = [
-        room.curtain(0.60, 0.088, seed, 108).moved(translate(x, -away, 0) @ rotate((0, 0, 1), -90))
+        room.curtain(0.60, 0.088, seed, 100).moved(translate(x, -away, 0) @ rotate((0, 0, 1), -90))
         for seed, x in ((1.0, -1.36), (2.6, 0.76))
     ]
     ball = lathe(fillet([(0, -0.028), (0.006, -0.028), (0.026, -0.012), (0.026, 0.012), (0.012, 0.030), (0, 0.034)], 0.012, 4), 20)
-    parts = [tube([(-end, -away, high), (0, -away, high), (end, -away, high)], 0.011, 20)]
+    parts = [tube([(-end, -away, high), (0, -away, high), (end, -away, high)], 0.011, 16)]
     for sx in (-1, 1):
         parts.append(ball.moved(translate(sx * (end + 0.015), -away, high) @ rotate((0, 1, 0), 90 * sx)))
-        parts.append(tube([(sx * 1.385, -0.001, high), (sx * 1.385, -away / 2, high), (sx * 1.385, -away, high)], 0.007, 12))
+        parts.append(tube([(sx * 1.385, -0.001, high), (sx * 1.385, -away / 2, high), (sx * 1.385, -away, high)], 0.007, 10))
         plate = rounded_box((0.032, 0.008, 0.075), 0.003)
         parts.append(plate.moved(translate(sx * 1.385, -0.0045, high)))
-    t = np.linspace(0, 2 * np.pi, 9)
+    t = np.linspace(0, 2 * np.pi, 8)
     eye = lathe(np.stack([0.021 + 0.0028 * np.cos(t), 0.0028 * np.sin(t)], 1), 14)
     for x0 in (-1.34, 0.80):
         for k in range(7):
@@ -217,8 +217,8 @@ PARTS = (
     Part("chair", chair, 1.00, 0.40, True),
     Part("floor-mirror", floor_mirror, 1.85, 0.88),
     Part("curtains", curtains, 3.60, 1.25),
-    Part("rug", rug, 2.70, 0.0, True),
-    Part("picture", picture, 1.05, 0.0, True),
+    Part("woven-rug", rug, 2.70, 0.0, True),
+    Part("framed-picture", picture, 1.05, 0.0, True),
     Part("table-lamp", table_lamp, 0.60, 0.25),
     Part("ceiling-lamp", ceiling_lamp, 0.98, -0.41),
     Part("plant", plant, 1.85, 0.85, True),

@@ -106,6 +106,7 @@ class Piece(Scene):
 
     def __init__(self, folder, demo_meshes=False):
         """With demo_meshes the meshes are the demo scene's, too, and not written again."""
+        (folder / "geometry").mkdir(parents=True, exist_ok=True)
         self.begin(folder)
         self.demo_meshes = demo_meshes
 
