@@ -33,7 +33,9 @@ def test_every_named_thing_exists(path):
     text = path.read_text()
     for name in re.findall(r'(?:"string filename" \[ |Include )"([^"]+)"', text):
         assert name.endswith(".exr") or (path.parent / name).is_file(), name
-    whole = text if path.parent.name in ("room", "parts") else "".join(p.read_text() for p in path.parent.glob("*.pbrt"))
+    whole = (
+        text if path.parent.name in ("room", "parts") else "".join(p.read_text() for p in path.parent.glob("*.pbrt"))
+    )
     for use, definition in (
         (r'ObjectInstance "([^"]+)"', r'ObjectBegin "([^"]+)"'),
         (r'\n *NamedMaterial "([^"]+)"', r'MakeNamedMaterial "([^"]+)"'),
@@ -59,7 +61,7 @@ def test_names_are_unique():
 def test_assets_exist_and_comprise_all_parts():
     """The Assets panel leaves out what is missing, and inserts "meshes"."""
     listed = json.loads((SCENES / "assets.json").read_text())
-    for name in sum(listed.values(), []):
+    for name in (name for names in listed.values() for name in names):
         assert (SCENES / name).is_file(), name
     assert {SCENES / name for name in listed["meshes"]} >= set(PARTS) and "room/room.pbrt" in listed["scenes"]
 
@@ -111,7 +113,9 @@ def assert_same_room(anew):
 
 def test_generator_writes_the_same_room_and_parts(tmp_path):
     for name in ("one", "two"):
-        subprocess.run([sys.executable, ROOT / "tools" / "make_room_scene.py", tmp_path / name], check=True, capture_output=True)
+        subprocess.run(
+            [sys.executable, ROOT / "tools" / "make_room_scene.py", tmp_path / name], check=True, capture_output=True
+        )
     assert_same_room(tmp_path / "one")
     for path in sorted(p for p in (tmp_path / "one").rglob("*") if p.is_file()):  # to the bit on one machine
         assert path.read_bytes() == (tmp_path / "two" / path.relative_to(tmp_path / "one")).read_bytes(), path

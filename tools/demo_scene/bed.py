@@ -29,7 +29,9 @@ def cover(y0, y1, drop, thickness, rows, columns, folds=1.0, radius=0.075):
     roll = np.pi * thickness / 2  # each hem is half a turn of this length
     s = np.linspace(-1, 1, columns) * (reach + roll)
     t = np.linspace(0, 1, rows)
-    ends = np.concatenate([-roll * np.linspace(1, 0, 5)[:-1], t * (y1 - y0), (y1 - y0) + roll * np.linspace(0, 1, 5)[1:]])
+    ends = np.concatenate(
+        [-roll * np.linspace(1, 0, 5)[:-1], t * (y1 - y0), (y1 - y0) + roll * np.linspace(0, 1, 5)[1:]]
+    )
     s, y = np.meshgrid(s, ends)
 
     def hem(over):  # (along, inwards) of the half turn at an edge, for a length past its beginning
@@ -76,7 +78,10 @@ def pillow(width, height, thickness, seed):
     bottom = sheet(np.stack([x, y, -z], -1), uv)
     top, bottom = (m if (m.n[:, 2].mean() > 0) == up else m.flipped() for m, up in ((top, True), (bottom, False)))
     rim = np.concatenate(
-        [np.stack([x, y], -1)[e] for e in ((0, slice(None)), (slice(1, None), -1), (-1, slice(-2, None, -1)), (slice(-2, 0, -1), 0))]
+        [
+            np.stack([x, y], -1)[e]
+            for e in ((0, slice(None)), (slice(1, None), -1), (-1, slice(-2, None, -1)), (slice(-2, 0, -1), 0))
+        ]
     )
     rim = np.concatenate([rim, rim[:2]])
     seam = tube(np.column_stack([rim, np.zeros(len(rim))]), 0.0032, 6, up=(0, 0, 1))
@@ -87,13 +92,22 @@ def frame():
     """Rails, legs and slats' edge in oak."""
     w, foot = WIDTH / 2 + 0.035, -LENGTH / 2 - 0.035
     parts = [
-        box_between((sx * w - 0.014, foot + 0.02, 0.13), (sx * w + 0.014, HEAD, RAIL), 0.006, 2, grain=1) for sx in (-1, 1)
+        box_between((sx * w - 0.014, foot + 0.02, 0.13), (sx * w + 0.014, HEAD, RAIL), 0.006, 2, grain=1)
+        for sx in (-1, 1)
     ]
     parts.append(box_between((-w - 0.014, foot, 0.13), (w + 0.014, foot + 0.028, RAIL), 0.006, 3, grain=0))
     parts.append(box_between((-w, foot + 0.01, 0.20), (w, HEAD, 0.222), 0.002, grain=0))
     for sx in (-1, 1):
         for y in (foot + 0.12, HEAD - 0.10):
-            parts.append(box_between((sx * (w - 0.06) - 0.028, y - 0.028, 0), (sx * (w - 0.06) + 0.028, y + 0.028, 0.15), 0.008, 3, grain=2))
+            parts.append(
+                box_between(
+                    (sx * (w - 0.06) - 0.028, y - 0.028, 0),
+                    (sx * (w - 0.06) + 0.028, y + 0.028, 0.15),
+                    0.008,
+                    3,
+                    grain=2,
+                )
+            )
     return merge(*parts)
 
 
@@ -103,7 +117,12 @@ def headboard():
     whole = WIDTH + 0.11
     wide = whole / count
     channel = rounded_box((wide - 0.002, 0.085, high - low), 0.040, 3, grain=2)
-    return merge(*(channel.moved(translate(-whole / 2 + wide * (k + 0.5), HEAD + 0.0435, (low + high) / 2)) for k in range(count)))
+    return merge(
+        *(
+            channel.moved(translate(-whole / 2 + wide * (k + 0.5), HEAD + 0.0435, (low + high) / 2))
+            for k in range(count)
+        )
+    )
 
 
 def bed(scene):
@@ -119,14 +138,26 @@ def bed(scene):
     scene.material("Throw wool", "diffuse", reflectance=(0.50, 0.235, 0.115), **knit)
     half = WIDTH / 2, LENGTH / 2
     mattress = box_between((-half[0], -half[1], 0.222), (half[0], half[1], TOP - 0.002), 0.05, 5)
-    duvet = cover(-half[1] + 0.04, 0.42, 0.20, 0.045, 56, 66)
-    turned = cover(0.30, 0.58, 0.215, 0.066, 14, 66)
-    throw = cover(-0.80, -0.28, 0.235, 0.064, 24, 66)
+    duvet = cover(-half[1] + 0.04, 0.42, 0.105, 0.045, 56, 66)
+    turned = cover(0.30, 0.58, 0.110, 0.066, 14, 66)
+    throw = cover(-0.80, -0.28, 0.115, 0.064, 24, 66)
     pillows, cushions = [], []
     for sx in (-1, 1):  # two lean at the headboard, two lie against them
-        pillows.append(pillow(0.74, 0.50, 0.17, 1.0 + sx).moved(translate(sx * 0.39, HEAD - 0.145, TOP + 0.255) @ rotate((0, 0, 1), 2 * sx) @ rotate((1, 0, 0), 68)))
-        pillows.append(pillow(0.70, 0.46, 0.17, 4.0 + sx).moved(translate(sx * 0.37, HEAD - 0.330, TOP + 0.205) @ rotate((0, 0, 1), -3 * sx) @ rotate((1, 0, 0), 52)))
-    cushions.append(pillow(0.50, 0.32, 0.14, 2.5).moved(translate(0.03, HEAD - 0.475, TOP + 0.175) @ rotate((0, 0, 1), 5) @ rotate((1, 0, 0), 55)))
+        pillows.append(
+            pillow(0.74, 0.50, 0.17, 1.0 + sx).moved(
+                translate(sx * 0.39, HEAD - 0.145, TOP + 0.255) @ rotate((0, 0, 1), 2 * sx) @ rotate((1, 0, 0), 68)
+            )
+        )
+        pillows.append(
+            pillow(0.70, 0.46, 0.17, 4.0 + sx).moved(
+                translate(sx * 0.37, HEAD - 0.330, TOP + 0.205) @ rotate((0, 0, 1), -3 * sx) @ rotate((1, 0, 0), 52)
+            )
+        )
+    cushions.append(
+        pillow(0.50, 0.32, 0.14, 2.5).moved(
+            translate(0.03, HEAD - 0.475, TOP + 0.175) @ rotate((0, 0, 1), 5) @ rotate((1, 0, 0), 55)
+        )
+    )
     scene.shape("Bed frame", "Oak", scene.mesh("bed-frame", frame()))
     scene.shape("Headboard", "Headboard wool", scene.mesh("bed-headboard", headboard()))
     scene.shape("Mattress", "Mattress cloth", scene.mesh("bed-mattress", mattress))

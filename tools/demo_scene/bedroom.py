@@ -94,7 +94,9 @@ def window(scene):
             z = z0 + 0.07 + share * (z1 - z0 - 0.13)
             parts.append(box_between((x0 + 0.02, ya, z - 0.012), (x1 - 0.015, yb, z + 0.012), 0.005))
     sill = box_between((-0.12, y0 - 0.06, z0 - 0.014), (0.070, y1 + 0.06, z0 + 0.018), 0.008, 3)
-    rosette = lathe(fillet([(0, 0), (0.014, 0), (0.014, 0.005), (0.006, 0.007), (0.006, 0.026), (0, 0.026)], 0.001, 2), 20)
+    rosette = lathe(
+        fillet([(0, 0), (0.014, 0), (0.014, 0.005), (0.006, 0.007), (0.006, 0.026), (0, 0.026)], 0.001, 2), 20
+    )
     at = translate(x1 + 0.010, middle, 1.20) @ rotate((0, 1, 0), 90)
     lever = box_between((x1 + 0.030, middle - 0.009, 1.085), (x1 + 0.042, middle + 0.009, 1.212), 0.005, 3)
     scene.shape("Window frame", "White gloss paint", scene.mesh("window-frame", merge(*parts)))

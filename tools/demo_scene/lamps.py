@@ -26,7 +26,15 @@ def table_lamp(scene):
         "Linen shade", "diffusetransmission", reflectance=(0.46, 0.43, 0.37), transmittance=(0.42, 0.385, 0.31)
     )
     belly = smooth_curve(
-        [(0.062, 0.006), (0.092, 0.045), (0.104, 0.095), (0.090, 0.150), (0.055, 0.195), (0.026, 0.225), (0.021, 0.245)],
+        [
+            (0.062, 0.006),
+            (0.092, 0.045),
+            (0.104, 0.095),
+            (0.090, 0.150),
+            (0.055, 0.195),
+            (0.026, 0.225),
+            (0.021, 0.245),
+        ],
         6,
     )
     foot = fillet([(0, 0), (0.058, 0), (0.062, 0.006)], [0, 0.003, 0], 3)
@@ -35,9 +43,7 @@ def table_lamp(scene):
         fillet([(0, 0.243), (0.015, 0.243), (0.015, 0.262), (0.007, 0.268), (0.007, 0.318), (0, 0.318)], 0.002, 3), 28
     )
     shade = lathe([(0.172, 0.285), (0.128, 0.500)], 72)
-    rims = [
-        tube(ring(radius, z), 0.0026, 8, up=(0, 0, 1)) for radius, z in ((0.172, 0.285), (0.128, 0.500))
-    ]
+    rims = [tube(ring(radius, z), 0.0026, 8, up=(0, 0, 1)) for radius, z in ((0.172, 0.285), (0.128, 0.500))]
     spider = [  # holds the shade
         tube([(0, 0, 0.306), (0.074 * c, 0.074 * s, 0.297), (0.1705 * c, 0.1705 * s, 0.288)], 0.0018, 6)
         for c, s in ((np.cos(t), np.sin(t)) for t in np.radians([20, 140, 260]))
@@ -57,7 +63,9 @@ def ceiling_lamp(scene):
     """Hangs from z = 0."""
     scene.section("Ceiling lamp")
     brass(scene)
-    scene.material("Lantern paper", "diffusetransmission", reflectance=(0.52, 0.50, 0.45), transmittance=(0.40, 0.375, 0.31))
+    scene.material(
+        "Lantern paper", "diffusetransmission", reflectance=(0.52, 0.50, 0.45), transmittance=(0.40, 0.375, 0.31)
+    )
     scene.material("Black cable", "diffuse", reflectance=(0.025, 0.023, 0.022))
     centre, radius, high = -0.62, 0.25, 0.19
     t = np.linspace(-1.30, 1.30, 79)  # from the lower hole to the upper one
@@ -66,7 +74,17 @@ def ceiling_lamp(scene):
     hole, top = radius * np.cos(1.30), centre + high * np.sin(1.30)
     rose = lathe(fillet([(0, -0.030), (0.050, -0.030), (0.055, -0.001), (0, -0.001)], [0, 0.010, 0.002, 0], 4), 40)
     socket = lathe(
-        fillet([(0, centre + 0.045), (0.019, centre + 0.045), (0.019, centre + 0.105), (0.006, centre + 0.115), (0, centre + 0.115)], 0.003, 3),
+        fillet(
+            [
+                (0, centre + 0.045),
+                (0.019, centre + 0.045),
+                (0.019, centre + 0.105),
+                (0.006, centre + 0.115),
+                (0, centre + 0.115),
+            ],
+            0.003,
+            3,
+        ),
         28,
     )
     wire = tube(ring(hole, top), 0.0022, 8, up=(0, 0, 1))
@@ -76,6 +94,8 @@ def ceiling_lamp(scene):
     ]
     cable = tube([(0, 0, -0.028), (0, 0, 0.5 * (centre + 0.1)), (0, 0, centre + 0.112)], 0.0032, 10)
     scene.shape("Lantern", "Lantern paper", scene.mesh("ceiling-lamp-lantern", paper))
-    scene.shape("Lantern fittings", "Brushed brass", scene.mesh("ceiling-lamp-fittings", merge(rose, socket, wire, *cross)))
+    scene.shape(
+        "Lantern fittings", "Brushed brass", scene.mesh("ceiling-lamp-fittings", merge(rose, socket, wire, *cross))
+    )
     scene.shape("Cable", "Black cable", scene.mesh("ceiling-lamp-cable", cable))
     bulb(scene, centre, 0.045, 60.0)

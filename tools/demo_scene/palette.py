@@ -27,7 +27,5 @@ def bark(scene):
 
 def weave(scene, name="linen height", depth=0.0004, repeats=24):
     """A plain weave as a height field [m], repeats times a metre; returns the material's parameters for it."""
-    scene.texture(
-        name, "float", "weave-height.png", encoding="linear", scale=depth, uscale=repeats, vscale=repeats
-    )
+    scene.texture(name, "float", "weave-height.png", encoding="linear", scale=depth, uscale=repeats, vscale=repeats)
     return {"displacement": ("texture", name)}

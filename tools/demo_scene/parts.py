@@ -32,7 +32,11 @@ from .palette import bark, brass, mirror, oak, walnut, weave
 
 def knob(x, y, z):
     """A round pull on a front at y."""
-    profile = fillet([(0, 0), (0.006, 0), (0.006, 0.012), (0.013, 0.018), (0.013, 0.025), (0, 0.027)], [0, 0, 0.003, 0.004, 0.004, 0], 2)
+    profile = fillet(
+        [(0, 0), (0.006, 0), (0.006, 0.012), (0.013, 0.018), (0.013, 0.025), (0, 0.027)],
+        [0, 0, 0.003, 0.004, 0.004, 0],
+        2,
+    )
     return lathe(profile, 16).moved(translate(x, y, z) @ rotate((1, 0, 0), 90))
 
 
@@ -48,15 +52,32 @@ def bedside_table(scene):
         box_between((-w + 0.002, -d + 0.006, low), (w - 0.002, d - 0.002, low + 0.018), 0.003, grain=0),
         box_between((-w + 0.004, -d + 0.012, shelf), (w - 0.004, d - 0.004, shelf + 0.016), 0.003, grain=0),
         box_between((-w + 0.006, d - 0.014, low + 0.004), (w - 0.006, d - 0.004, high - 0.006), 0.002, grain=2),
-        box_between((-w + side + 0.003, -d + 0.003, shelf + 0.020), (w - side - 0.003, -d + 0.021, high - 0.026), 0.004, 3, grain=0),
+        box_between(
+            (-w + side + 0.003, -d + 0.003, shelf + 0.020),
+            (w - side - 0.003, -d + 0.021, high - 0.026),
+            0.004,
+            3,
+            grain=0,
+        ),
     ]
     for sx in (-1, 1):
         inner, outer = sorted((sx * w, sx * (w - side)))
         parts.append(box_between((inner, -d + 0.002, low + 0.004), (outer, d - 0.001, high - 0.004), 0.004, grain=2))
         for sy in (-1, 1):
-            parts.append(furniture.leg((sx * (w - 0.022), sy * (d - 0.022), 0), (sx * (w - 0.035), sy * (d - 0.035), low + 0.004), 0.010, 0.017))
+            parts.append(
+                furniture.leg(
+                    (sx * (w - 0.022), sy * (d - 0.022), 0),
+                    (sx * (w - 0.035), sy * (d - 0.035), low + 0.004),
+                    0.010,
+                    0.017,
+                )
+            )
     scene.shape("Bedside table", "Oak", scene.mesh("bedside-table", merge(*parts)))
-    scene.shape("Drawer knob", "Brushed brass", scene.mesh("bedside-table-knob", knob(0, -d + 0.003, 0.5 * (shelf + high) - 0.003)))
+    scene.shape(
+        "Drawer knob",
+        "Brushed brass",
+        scene.mesh("bedside-table-knob", knob(0, -d + 0.003, 0.5 * (shelf + high) - 0.003)),
+    )
 
 
 def chest_of_drawers(scene):
@@ -75,11 +96,20 @@ def chest_of_drawers(scene):
         inner, outer = sorted((sx * w, sx * (w - side)))
         parts.append(box_between((inner, -d + 0.002, low + 0.004), (outer, d - 0.001, high - 0.004), 0.004, grain=2))
         for sy in (-1, 1):
-            parts.append(furniture.leg((sx * (w - 0.055), sy * (d - 0.045), 0), (sx * (w - 0.085), sy * (d - 0.065), low + 0.004), 0.012, 0.020))
+            parts.append(
+                furniture.leg(
+                    (sx * (w - 0.055), sy * (d - 0.045), 0),
+                    (sx * (w - 0.085), sy * (d - 0.065), low + 0.004),
+                    0.012,
+                    0.020,
+                )
+            )
     rows = np.linspace(low + 0.025, high - 0.027, 4)
     for k in range(3):
         for xa, xb in ((-w + side + 0.003, -0.002), (0.002, w - side - 0.003)):
-            drawer = box_between((xa, -d + 0.004, rows[k] + 0.002), (xb, -d + 0.024, rows[k + 1] - 0.002), 0.004, 3, grain=0)
+            drawer = box_between(
+                (xa, -d + 0.004, rows[k] + 0.002), (xb, -d + 0.024, rows[k + 1] - 0.002), 0.004, 3, grain=0
+            )
             parts.append(drawer.with_uv(1, (0.31 * k, 0.17 * k)))
             for share in (0.25, 0.75):
                 knobs.append(knob(xa + share * (xb - xa), -d + 0.004, 0.5 * (rows[k] + rows[k + 1])))
@@ -101,7 +131,9 @@ def armchair(scene):
     back = cushion((0.53, 0.44, 0.150), 0.060, 0.030).moved(rotate((1, 0, 0), 90 - 11))
     parts.append(back.moved(translate(0, 0.175, 0.655)))
     legs = [
-        furniture.leg((sx * 0.30, y * 1.06, 0), (sx * 0.275, y, 0.185), 0.011, 0.019) for sx in (-1, 1) for y in (-0.29, 0.26)
+        furniture.leg((sx * 0.30, y * 1.06, 0), (sx * 0.275, y, 0.185), 0.011, 0.019)
+        for sx in (-1, 1)
+        for y in (-0.29, 0.26)
     ]
     scene.shape("Armchair", "Upholstery wool", scene.mesh("armchair", merge(*parts)))
     scene.shape("Armchair legs", "Walnut", scene.mesh("armchair-legs", merge(*legs)))
@@ -111,18 +143,25 @@ def curtains(scene):
     """A pair on a rod, for a window up to 2 m wide; the wall is y = 0."""
     scene.section("Curtains")
     brass(scene)
-    scene.material("Curtain linen", "diffusetransmission", reflectance=(0.45, 0.43, 0.385), transmittance=(0.36, 0.33, 0.27))
+    scene.material(
+        "Curtain linen", "diffusetransmission", reflectance=(0.45, 0.43, 0.385), transmittance=(0.36, 0.33, 0.27)
+    )
     away, high, end = 0.135, 2.475, 1.42
     # The demo scene's curtains hang in the plane x = 0; a quarter turn takes their +x to -y.
     panels = [
         room.curtain(0.60, 0.088, seed, 100).moved(translate(x, -away, 0) @ rotate((0, 0, 1), -90))
         for seed, x in ((1.0, -1.36), (2.6, 0.76))
     ]
-    ball = lathe(fillet([(0, -0.028), (0.006, -0.028), (0.026, -0.012), (0.026, 0.012), (0.012, 0.030), (0, 0.034)], 0.012, 4), 20)
+    ball = lathe(
+        fillet([(0, -0.028), (0.006, -0.028), (0.026, -0.012), (0.026, 0.012), (0.012, 0.030), (0, 0.034)], 0.012, 4),
+        20,
+    )
     parts = [tube([(-end, -away, high), (0, -away, high), (end, -away, high)], 0.011, 16)]
     for sx in (-1, 1):
         parts.append(ball.moved(translate(sx * (end + 0.015), -away, high) @ rotate((0, 1, 0), 90 * sx)))
-        parts.append(tube([(sx * 1.385, -0.001, high), (sx * 1.385, -away / 2, high), (sx * 1.385, -away, high)], 0.007, 10))
+        parts.append(
+            tube([(sx * 1.385, -0.001, high), (sx * 1.385, -away / 2, high), (sx * 1.385, -away, high)], 0.007, 10)
+        )
         plate = rounded_box((0.032, 0.008, 0.075), 0.003)
         parts.append(plate.moved(translate(sx * 1.385, -0.0045, high)))
     t = np.linspace(0, 2 * np.pi, 8)
@@ -143,7 +182,13 @@ def floor_mirror(scene):
     half, spring, foot = 0.34, 1.42, 0.03  # half the width; heights of the arch's beginning and of the lower edge
     t = np.linspace(0, np.pi, 33)
     arch = np.stack([half * np.cos(t), 0 * t, spring + half * np.sin(t)], 1)
-    path = np.concatenate([[(half, 0, z) for z in np.linspace(foot, spring, 9)[:-1]], arch, [(-half, 0, z) for z in np.linspace(spring, foot, 9)[1:]]])
+    path = np.concatenate(
+        [
+            [(half, 0, z) for z in np.linspace(foot, spring, 9)[:-1]],
+            arch,
+            [(-half, 0, z) for z in np.linspace(spring, foot, 9)[1:]],
+        ]
+    )
     frame = sweep(path, rounded_rectangle(0.022, 0.030, 0.006), up=(0, 1, 0))
     bar = box_between((-half - 0.011, -0.015, foot - 0.011), (half + 0.011, 0.015, foot + 0.011), 0.006, 3)
     rim = path[:, ::2]
@@ -158,10 +203,15 @@ def floor_mirror(scene):
     back = Mesh(v + [0, 0.010, 0], -glass.n, points, glass.f[:, ::-1])
     lean = translate(0, -0.14, 0) @ rotate((1, 0, 0), -6)
     stay = [
-        tube([(sx * 0.20, 0.005, 1.30), (sx * 0.215, 0.115, 0.66), (sx * 0.23, 0.24, 0.012)], 0.008, 12) for sx in (-1, 1)
+        tube([(sx * 0.20, 0.005, 1.30), (sx * 0.215, 0.115, 0.66), (sx * 0.23, 0.24, 0.012)], 0.008, 12)
+        for sx in (-1, 1)
     ]
     stay.append(tube([(-0.226, 0.2, 0.20), (0, 0.2, 0.20), (0.226, 0.2, 0.20)], 0.006, 10))
-    scene.shape("Mirror frame", "Brushed brass", scene.mesh("floor-mirror-frame", merge(merge(frame, bar, back).moved(lean), *stay)))
+    scene.shape(
+        "Mirror frame",
+        "Brushed brass",
+        scene.mesh("floor-mirror-frame", merge(merge(frame, bar, back).moved(lean), *stay)),
+    )
     scene.shape("Mirror", "Mirror", scene.mesh("floor-mirror-glass", glass.moved(lean)))
 
 
