@@ -50,7 +50,7 @@ def _program() -> _pathlib.Path:
 
 
 def bundled_scene(name: str) -> _pathlib.Path:
-    """Path of a scene that comes with Restage: demo (a room), cornell or spheres."""
+    """Path of a scene that comes with Restage: demo (a room), room (an empty one), cornell or spheres."""
     path = _pathlib.Path(_core.home()) / "share/restage/scenes" / f"{name}" / f"{name}.pbrt"
     if not path.exists():
         names = sorted(p.parent.name for p in path.parents[1].glob("*/*.pbrt") if p.parent.name == p.stem)

@@ -219,3 +219,19 @@ def test_a_first_start_says_how_to_begin_and_only_once(launch, tmp_path):
     again = launch(DEMO, hint=True)
     again.settled(samples=1)
     assert "hint" not in again.state()["marks"]
+
+
+def test_a_part_of_the_library_is_inserted_whole(launch):
+    editor = launch(DEMO.parents[1] / "room/room.pbrt")
+    editor.settled(samples=1)
+    before = editor.state()["counts"]
+    tab(editor, "Assets")
+    editor.click("assets.search")
+    editor.type("armchair")
+    editor.move("asset.armchair")
+    editor.desk.xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the armchair", 60)
+    assert state["counts"]["instances"] == before["instances"] + 2
+    assert sorted(names(state)) == ["Armchair", "Armchair legs"], "it is not selected as a whole"
+    editor.key("ctrl+z")
+    editor.wait(lambda s: s["counts"] == before, "undo")
