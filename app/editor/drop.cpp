@@ -7,6 +7,7 @@
 #include "files.hpp"
 #include "io/image_file.hpp"
 #include "opening.hpp"
+#include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
 #include "query/navigation.hpp"
@@ -53,6 +54,15 @@ std::size_t users_of(const scene::Scene& s, scene::Id<scene::Material> id) {
     std::size_t count = 0;
     s.instances.each([&](InstanceId, const scene::Instance& i) { count += i.material == id; });
     return count;
+}
+
+// Object files are inserted into the open scene, and so are scene files that the Assets panel lists among the meshes.
+bool is_inserted(const PanelContext& e, const fs::path& path) {
+    if (e.scene().instances.live() == 0) return false;
+    return is_one_of(extension_of(path), {"obj", "ply", "stl", "gltf", "glb"}) ||
+           std::ranges::any_of(e.panel_state->assets.entries, [&](const Asset& asset) {
+               return asset.kind == AssetKind::mesh && asset.path == path.string();
+           });
 }
 
 bool becomes_sky(const std::string& extension, InstanceId on) {
@@ -156,10 +166,10 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
         if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
-        // Object files are inserted into the open scene; scenes, and any file if no scene is open, are opened.
+        // Other scenes, and any file if no scene is open, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
-        else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
+        else if (is_inserted(*this, path))
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
             open(path);
@@ -197,7 +207,7 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
                : users > 1
                    ? fmt::format("{} onto \"{}\", the material of {} objects", name, onto, users)
                    : fmt::format("{} onto \"{}\", the material of {}", name, onto, e.scene().instances[on].name);
-    } else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && e.scene().instances.live() > 0) {
+    } else if (is_inserted(e, path)) {
         e.drop_target = on;
         text = on ? fmt::format("{}, to stand on {}", name, e.scene().instances[on].name) : name + ", into the scene";
     } else {

@@ -235,3 +235,6 @@ def test_a_part_of_the_library_is_inserted_whole(launch):
     assert sorted(names(state)) == ["Armchair", "Armchair legs"], "it is not selected as a whole"
     editor.key("ctrl+z")
     editor.wait(lambda s: s["counts"] == before, "undo")
+    editor.drag("asset.armchair", ("picture", 0.5, 0.85))
+    state = editor.wait(lambda s: s["history"]["position"] == 1, "the dragged armchair", 60)
+    assert sorted(names(state)) == ["Armchair", "Armchair legs"]
