@@ -269,14 +269,16 @@ Result<scene::Edit> edit_in_scope(
 
 void Editor::place_inserted(const io::ImportedScene& imported) {
     const Opening::Request& request = opening_->request();
-    // The centre of its underside is placed on the visible surface there.
+    // It stands on the visible surface there, or hangs from it.
     const query::ViewRay ray =
         query::view_ray(camera(), request.film_point.value_or(glm::dvec2(0.5, 0.6)), film_aspect());
     const auto hits = query::raycast_all(scene(), ray.origin, ray.direction);
     const scene::Bounds all = scene::world_bounds(scene());
     const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
     const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
-    const auto made = session_->insert(imported, request.path.string(), document::Session::Stand{at, up_});
+    const auto made =
+        session_->insert(imported, request.path.string(),
+                         document::Session::Stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal});
     if (!made) {
         notices.add(LogLevel::error, made.error().message);
         return;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
 namespace restage::document {
@@ -127,6 +128,40 @@ Result<Id<Material>> Session::add_material(std::string name, std::string type) {
     return id;
 }
 
+namespace {
+
+constexpr double flat = 0.35; // depth of what hangs on a wall, relative to its width or its height
+
+// Moves what has these bounds to where it stands or hangs. The back of a flat thing is the side on which its file has
+// the origin.
+glm::dmat4 placement(const Bounds& bounds, const Session::Stand& stand) {
+    const glm::dvec3 up = stand.up, center = bounds.center(), size = bounds.size();
+    const double height = std::abs(glm::dot(size, up)), slope = glm::dot(stand.normal, up);
+    const bool wall = stand.normal != glm::dvec3(0) && std::abs(slope) < 0.5;
+    if (wall) {
+        glm::dvec3 front(0); // along the axis of least extent, horizontal
+        double depth = 1e300, width = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 e(0);
+            e[axis] = 1;
+            if (std::abs(glm::dot(e, up)) > 0.5) continue;
+            width = std::max(width, size[axis]);
+            if (size[axis] >= depth) continue;
+            depth = size[axis];
+            front = center[axis] < 0 ? -e : e;
+        }
+        if (depth <= flat * std::max(width, height)) {
+            const glm::dvec3 to = glm::normalize(stand.normal - up * slope);
+            const double angle = std::atan2(glm::dot(glm::cross(front, to), up), glm::dot(front, to));
+            return glm::translate(glm::rotate(glm::translate(glm::dmat4(1), stand.at), angle, up),
+                                  0.5 * depth * front - center);
+        }
+    }
+    return glm::translate(glm::dmat4(1), stand.at - (center + up * (slope < -0.5 ? 0.5 : -0.5) * height));
+}
+
+} // namespace
+
 Result<Merged> Session::insert_file(const std::string& path, const io::ImportOptions& options) {
     RESTAGE_TRY(const io::ImportedScene imported, io::import_scene(path, registry_, options));
     return insert(imported, path);
@@ -146,9 +181,7 @@ Result<Merged> Session::insert(const io::ImportedScene& imported, const std::str
             if (const auto* c = std::get_if<Change<Instance>>(&change); c && c->after)
                 if (const auto mesh = meshes.find(c->after->mesh.value); mesh != meshes.end() && mesh->second)
                     bounds.add(world_bounds(*mesh->second, c->after->object_to_world));
-        const glm::dvec3 lowest = bounds.center() - stand->up * (0.5 * std::abs(glm::dot(bounds.size(), stand->up)));
-        glm::dmat4 move(1);
-        if (!bounds.empty()) move[3] = glm::dvec4(stand->at - lowest, 1);
+        const glm::dmat4 move = bounds.empty() ? glm::dmat4(1) : placement(bounds, *stand);
         for (AnyChange& change : made.edit.changes) {
             if (auto* i = std::get_if<Change<Instance>>(&change); i && i->after)
                 i->after->object_to_world = move * i->after->object_to_world;

@@ -74,9 +74,11 @@ class Session {
     Result<scene::Edit> param_edit(scene::Id<scene::Material>, std::string_view param, scene::Value) const;
     Result<scene::Id<scene::Material>> add_material(std::string name, std::string type);
     // Inserts the objects of another file, as one undo step; their import report is added to
-    // the report. `stand`: where the centre of their underside is placed.
+    // the report. `stand`: a point of a surface, where the centre of their underside is placed; under a ceiling, of
+    // their top; on a wall, if they are flat, of their back, turned to the wall.
     struct Stand {
-        glm::dvec3 at, up;
+        glm::dvec3 at, up; // up: unit
+        glm::dvec3 normal{0}; // of the surface, unit; 0: up
     };
     Result<scene::Merged> insert_file(const std::string& path, const io::ImportOptions& = {});
     Result<scene::Merged> insert(const io::ImportedScene&, const std::string& file,

@@ -89,7 +89,7 @@ class Editor:
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             if self.process.poll() is not None:
-                raise AssertionError(f"the editor ended while waiting for {what}: {self.output()}")
+                raise AssertionError(f"the editor ended ({self.process.returncode}) while waiting for {what}: {self.output()}")
             if self.probe.exists():
                 state = self.state()
                 if condition(state):

@@ -4,9 +4,10 @@ becomes a different kitchen (island removed, table longer, chairs, places and th
 same room in other materials. Only pointing, dragging, keys and typed numbers are used; where a person would check the position
 of a thing, the script reads the editor's state (--probe).
 
-    build/venv/bin/python tests/ui/thesis.py RESTAGE SCENES/kitchen/scene.pbrt OUT
+    build/venv/bin/python tests/ui/thesis.py RESTAGE SCENES/kitchen/scene.pbrt OUT [kitchen] [materials] [bedroom] [render] [record]
 
 writes before.png, kitchen.png and materials.png (the projects by `restage render`, denoised), the projects, and
+with `record` also kitchen.webp, 20 s of its window (needs Pillow);
 prints the gestures, how long the script took, and how long a person would, by the keystroke-level model (S. Card, T. Moran,
 A. Newell, "The keystroke-level model for user performance time with interactive systems", CACM 23(7), 1980)."""
 import pathlib
@@ -20,6 +21,7 @@ import zlib
 import numpy as np
 
 from desk import Desk, Editor
+from record import Recorder
 
 # Card, Moran, Newell 1980, Fig. 1 [s]: a key of a non-secretary typist, pointing, pressing or releasing a button, a hand from
 # mouse to keyboard or back, making up one's mind.
@@ -30,8 +32,9 @@ LOOK = 2.0  # ours: seeing what a drag did before the next one
 class Hand:
     """An Editor's mouse and keys that count gestures and the time they would take a person."""
 
-    def __init__(self, editor):
-        self.e, self.gestures, self.seconds, self.on_keys = editor, [], 0.0, False
+    def __init__(self, editor, eye):
+        self.e, self.eye = editor, eye
+        self.gestures, self.seconds, self.on_keys = [], 0.0, False
 
     def note(self, what, seconds, keys=False):
         self.gestures.append(what)
@@ -109,45 +112,101 @@ class Hand:
         assert np.linalg.norm(moved - by) < 0.12, f"{what}: moved by {moved}, not {by}"
 
     def middle(self):
-        lower, upper = self.box()
+        lower, upper = self.bounds()
         return (lower + upper) / 2
 
-    def box(self):
+    def box(self, lower, upper, what, expect):
+        """Selects what is entirely inside a box on the screen, around this box of the scene."""
+        self.e.settled(1)  # thin things are missing in coarse pictures
+        corners = np.array([self.screen((x, y, z)) for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])])
+        self.e.drag(tuple(int(v) for v in corners.min(0) - 14), tuple(int(v) for v in corners.max(0) + 14))
+        self.e.wait(lambda s: expect <= {item["name"] for item in s["selection"]}, what, 10)
+        self.note(f"box around {what}", 2 * POINT + 2 * BUTTON)
+
+    def bounds(self):
         items = self.state()["selection"]
         return np.min([i["lower"] for i in items], 0), np.max([i["upper"] for i in items], 0)
 
     def screen(self, point):
-        return self.e.point(("picture", *project(point)))
+        return self.e.point(("picture", *self.eye.project(point)))
 
-    def preset(self, name, where):
-        """Finds a material in the library by its name and drags it to this place."""
-        if "materials.search" not in self.state()["marks"]:
-            self.click("tab.Materials")
-        self.e.click("materials.search")
+    def number(self, mark, part, text, what):
+        """Ctrl + click on the part-th of the three fields of a widget, and a number typed into it."""
+        self.e.point(mark)  # once it is stable
+        x0, y0, x1, y1 = self.state()["marks"][mark]
+        before = self.steps()
+        at = (int(x0 + (x1 - x0) * (part + 0.5) / 3), int((y0 + y1) / 2))
+        self.e.click(at, keys=["ctrl"])
+        time.sleep(0.5)
+        self.e.type(text)
+        self.e.key("Return")
+        self.e.wait(lambda s: s["history"]["position"] > before, what, 10)
+        self.note(what, POINT + 2 * BUTTON + HAND + KEY * (len(text) + 2))
+
+    def search(self, mark, name):
+        """Types it into a search field."""
+        self.e.click(mark)
         self.e.key("ctrl+a")
         self.e.type(name)
         self.note(f"search {name}", POINT + 2 * BUTTON + HAND + KEY * (len(name) + 2))
+
+    def part(self, name, at):
+        """Finds a part in the Assets panel and drags it to where this point of the scene is seen."""
+        self.search("assets.search", name)
+        self.e.wait(lambda s: [m for m in s["marks"] if m.startswith("asset.")][:1] == [f"asset.{name}"], name, 20)
+        before = self.steps()
+        self.e.drag(f"asset.{name}", ("picture", *self.eye.project(at)), steps=12)
+        self.e.wait(lambda s: s["history"]["position"] > before, f"{name} inserted", 30)
+        self.note(f"drag {name}", 2 * POINT + 2 * BUTTON)
+        off = self.middle() - at
+        assert np.linalg.norm(off[:2]) < 0.4, f"{name} is {off} from where it was dropped"
+
+    def preset(self, name, where, only=False):
+        """Finds a material in the library by its name and drags it to this place; `only` to the object there, not to all that share
+        its material."""
+        if "materials.search" not in self.state()["marks"]:
+            self.click("tab.Materials")
+        self.search("materials.search", name)
+        self.e.wait(lambda s: [m for m in s["marks"] if m.startswith("materials.ball.")] == [f"materials.ball.{name}"], name, 20)
         before = self.steps()
         self.e.drag(f"materials.{name}", where, steps=12)
-        self.e.wait(lambda s: s["history"]["position"] > before, f"{name} given", 20)
+        state = self.e.wait(lambda s: s["modal"] or s["history"]["position"] > before, f"{name} given", 20)
         self.note(f"drag {name}", 2 * POINT + 2 * BUTTON)
+        if state["modal"]:
+            self.click("scope.alone" if only else "scope.all")
+            self.e.wait(lambda s: s["history"]["position"] > before, f"{name} given", 20)
 
 
-# The kitchen's camera, from its file: world to camera.
-TO_CAMERA = np.array([[0.89874, -0.0182716, -0.4381, 0], [1.86265e-9, 0.999132, -0.0416703, 0],
-                      [-0.438481, -0.0374507, -0.89796, 0], [0.600822, -1.63678, 4.06504, 1]]).T
-HALF = np.tan(np.radians(35.9834 / 2))
+class Eye:
+    """A pinhole camera of a 16:9 picture."""
+
+    def __init__(self, to_camera, fov):
+        self.to_camera, self.half = np.array(to_camera), np.tan(np.radians(fov / 2))
+
+    def project(self, point):
+        """Its position in the picture: (0,0) top left, (1,1) bottom right."""
+        x, y, z = (self.to_camera @ [*point, 1])[:3]
+        return 0.5 + x / z / self.half / (16 / 9) / 2, 0.5 - y / z / self.half / 2
+
+
+def looking(eye, at, fov):
+    """From a point to another one; z is up."""
+    forward = np.subtract(at, eye) / np.linalg.norm(np.subtract(at, eye))
+    right = np.cross(forward, (0, 0, 1)) / np.linalg.norm(np.cross(forward, (0, 0, 1)))
+    rows = np.array([right, np.cross(right, forward), forward])
+    return Eye(np.column_stack([rows, -rows @ eye]), fov)
+
+
+# The cameras of both scenes, from their files.
+KITCHEN = Eye(np.array([[0.89874, -0.0182716, -0.4381, 0], [1.86265e-9, 0.999132, -0.0416703, 0],
+                        [-0.438481, -0.0374507, -0.89796, 0], [0.600822, -1.63678, 4.06504, 1]]).T, 35.9834)
+ROOM = looking((4.02, -4.52, 1.28), (1.62, -0.9, 1.28), 46)
+project = KITCHEN.project
 
 
 LAMP = ("picture", 0.739, 0.30)
 WALL = ("picture", 0.936, 0.484)
 LONGER = 1.42  # the table, and the displacement of copies of the things at and on it
-
-
-def project(point):
-    """Its position in the kitchen camera's picture: (0,0) top left, (1,1) bottom right."""
-    x, y, z, _ = TO_CAMERA @ [*point, 1]
-    return 0.5 + x / z / HALF / (16 / 9) / 2, 0.5 - y / z / HALF / 2
 
 
 def another_kitchen(hand):
@@ -159,10 +218,11 @@ def another_kitchen(hand):
     hand.e.wait(lambda s: s["counts"]["instances"] == 299 - 43, "no island")
 
     # A copy of each chair at the near end of the table, nearer.
-    for at, material, count in (((1.09, 1.01, -1.27), "TableCross", 18), ((-0.555, 1.03, -1.15), "TableCross", 14)):
-        hand.click(("picture", *project(at)), material)
-        assert hand.state()["selected"] >= count, hand.names()
-        hand.slide(at, np.array([0, 0, LONGER]), "another chair", copy=True)
+    chairs = (1.09, 1.01, -1.27), (-0.555, 1.03, -1.15)
+    hand.click(("picture", *project(chairs[0])), "TableCross")
+    hand.click(("picture", *project(chairs[1])), "TableCross", keys=["ctrl"])
+    assert hand.state()["selected"] >= 18 + 14, hand.names()
+    hand.slide(chairs[0], np.array([0, 0, LONGER]), "two more chairs", copy=True)
 
     # The table, longer, and its far end at the window again.
     hand.click(("picture", *project((0.15, 0.86, -0.80))), "Tabletop")
@@ -170,14 +230,13 @@ def another_kitchen(hand):
     hand.key("r")
     center, handle = (np.array(hand.e.point(mark), float) for mark in ("gizmo.center", "gizmo.z"))
     hand.pull("gizmo.z", (handle - center) / np.linalg.norm(handle - center) * 6,
-              lambda s: 3.05 - (lambda b: b[1][2] - b[0][2])(hand.box()), what="the table longer")
+              lambda s: 3.05 - (lambda b: b[1][2] - b[0][2])(hand.bounds()), what="the table longer")
     hand.key("w")
-    lower, upper = hand.box()
+    lower, upper = hand.bounds()
     hand.slide((0.15, 0.86, upper[2] - 0.15), np.array([0, 0, -2.46 - lower[2]]), "the table to the window")
 
-    # Four more places: what is on the table, but not the table.
-    hand.click(("picture", *project((-0.16, 0.878, -1.12))), "Plates")
-    hand.key("c")
+    # Four more places, by a box around those that are there.
+    hand.box((-0.36, 0.86, -2.24), (0.63, 0.90, -0.94), "the places", {"Plates", "TableMats", "Cutlery"})
     hand.slide((-0.16, 0.878, -1.12), np.array([0, 0, LONGER]), "four more places", copy=True)
 
     # Another lamp.
@@ -185,7 +244,7 @@ def another_kitchen(hand):
     hand.slide((0.19, 2.3, -1.6), np.array([0, 0, 1.3]), "another lamp", copy=True)
 
     # The wall with the window, and the others, from the library.
-    hand.preset("Paint, foliage green", WALL)
+    hand.preset("Paint, sky blue", WALL, only=True)
     hand.preset("Egg shell, white", ("picture", 0.30, 0.13))
 
 
@@ -195,6 +254,23 @@ def other_materials(hand):
     hand.preset("Marble, polished", ("picture", 0.07, 0.786))
     hand.preset("Marble, polished", ("picture", 0.385, 0.85))
     hand.preset("Cream", WALL)
+
+
+def bedroom(hand):
+    """An empty room, furnished with what the program ships."""
+    hand.click("tab.Assets")
+    for name, at in (("bedside-table", (1.16, -0.23, 0)), ("bedside-table", (3.56, -0.23, 0)), ("table-lamp", (1.10, -0.2, 0.52)),
+                     ("table-lamp", (3.62, -0.2, 0.52)), ("books", (3.44, -0.3, 0.52)), ("framed-picture", (2.35, 0, 1.6)),
+                     ("plant", (0.42, -0.48, 0)), ("bed", (2.35, -1.1, 0)), ("ceiling-lamp", (1.9, -1.2, 2.65)),
+                     ("woven-rug", (1.9, -2.3, 0)), ("armchair", (0.8, -1.55, 0)), ("curtains", (0, -1.95, 2.45))):
+        hand.part(name, at)
+        if name == "armchair":
+            hand.number("inspector.turn_by", 2, "62", "the armchair to the bed")
+        if name == "curtains":
+            center, handle = (np.array(hand.e.point(mark), float) for mark in ("gizmo.center", "gizmo.z"))
+            hand.pull("gizmo.z", (center - handle) / np.linalg.norm(handle - center) * 6, lambda s: hand.bounds()[0][2] - 0.02, what="the curtains down")
+    hand.preset("Velvet, blue", ("picture", *ROOM.project((0.8, -1.6, 0.45))))
+    hand.key("Escape")
 
 
 def save(hand, path):
@@ -208,22 +284,26 @@ def save(hand, path):
     hand.e.wait(lambda s: s["path"] == str(path) and not s["modified"], "the saved project")
 
 
-def edit(binary, scene, out, name, how):
+def edit(binary, scene, out, name, how, eye, record):
     """Opens the scene, edits it, saves it; prints the effort."""
     project_file = out / f"{name}.restage"
     project_file.unlink(missing_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         desk = Desk(pathlib.Path(folder) / "desk", size=(1600, 900))
         editor = Editor(desk, binary, scene, config=f"{folder}/config", probe=f"{folder}/probe.json", size=(1600, 900))
-        hand = Hand(editor)
+        hand = Hand(editor, eye)
         try:
-            editor.wait(lambda s: s["counts"]["instances"] == 299 and not s["opening"], "the kitchen", 60)
+            editor.wait(lambda s: s["counts"]["instances"] > 1 and not s["opening"], "the scene", 60)
             editor.settled(1)
+            recorder = Recorder(desk) if record else None
             started = time.monotonic()
             how(hand)
             wall = time.monotonic() - started
             save(hand, project_file)
             editor.settled(8)
+            if recorder:
+                recorder.stop()
+                recorder.write(out / f"{name}.webp", seconds=20, width=960)
         except Exception:
             print(hand.names())
             raise
@@ -247,13 +327,15 @@ def write_png(path, pixels):
 
 def main():
     binary, scene, out = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-    wanted = sys.argv[4:] or ["kitchen", "materials"]
+    wanted = sys.argv[4:] or ["kitchen", "materials", "bedroom", "render"]
     out.mkdir(parents=True, exist_ok=True)
-    projects = {"before": scene}
-    for name, how in (("kitchen", another_kitchen), ("materials", other_materials)):
+    room = pathlib.Path(__file__).resolve().parents[2] / "scenes/room/room.pbrt"
+    projects = {"before": scene, "room": room}
+    for name, from_file, how, eye in (("kitchen", scene, another_kitchen, KITCHEN), ("materials", scene, other_materials, KITCHEN),
+                                      ("bedroom", room, bedroom, ROOM)):
         if name in wanted:
-            projects[name] = edit(binary, scene, out, name, how)
-    if "render" in wanted or len(wanted) == 2:
+            projects[name] = edit(binary, from_file, out, name, how, eye, "record" in wanted)
+    if "render" in wanted:
         for name, file in projects.items():
             subprocess.run([binary, "render", file, "-o", out / f"{name}.png", "--size", "960x540", "--spp", "64", "--denoise"], check=True)
 

@@ -89,6 +89,35 @@ TEST_CASE("Undo and redo continue across a save", "[project]") {
     CHECK_FALSE(session.modified());
 }
 
+TEST_CASE("What is inserted stands on floors, hangs from ceilings and, if it is flat, on walls", "[project]") {
+    const Fixture files;
+    // 0.8 wide, 0.05 deep, 0.6 high; the origin is at its back, and its front looks towards -y.
+    REQUIRE(write_file_atomic(files.at("scenes/frame.pbrt"),
+                              "WorldBegin\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+                              "\"point3 P\" [-0.4 -0.05 -0.3  0.4 0 -0.3  0.4 -0.05 0.3  -0.4 0 0.3]\n"));
+    const auto frame = io::import_scene(files.at("scenes/frame.pbrt"), files.registry);
+    REQUIRE(frame);
+    const glm::dvec3 at(3, 4, 1.5);
+    const auto placed = [&](glm::dvec3 normal) {
+        document::Session session(files.registry);
+        files.opened(session);
+        const auto made =
+            session.insert(*frame, files.at("scenes/frame.pbrt"), {{.at = at, .up = {0, 0, 1}, .normal = normal}});
+        REQUIRE(made);
+        return world_bounds(session.scene(), made->instances.at(0));
+    };
+    const auto is = [](const Bounds& b, glm::dvec3 lower, glm::dvec3 upper) {
+        return glm::length(b.lower - lower) < 1e-6 && glm::length(b.upper - upper) < 1e-6;
+    };
+    CHECK(is(placed({0, 0, 1}), {2.6, 3.975, 1.5}, {3.4, 4.025, 2.1}));
+    CHECK(is(placed({0, 0, 0}), {2.6, 3.975, 1.5}, {3.4, 4.025, 2.1}));
+    CHECK(is(placed({0, 0, -1}), {2.6, 3.975, 0.9}, {3.4, 4.025, 1.5}));
+    CHECK(is(placed({0, -1, 0}), {2.6, 3.95, 1.2}, {3.4, 4, 1.8}));
+    CHECK(is(placed({0, 1, 0}), {2.6, 4, 1.2}, {3.4, 4.05, 1.8}));
+    CHECK(is(placed({1, 0, 0}), {3, 3.6, 1.2}, {3.05, 4.4, 1.8}));
+    CHECK(is(placed({-1, 0, 0}), {2.95, 3.6, 1.2}, {3, 4.4, 1.8}));
+}
+
 TEST_CASE("Insertions from a file are stored by reference, with a placeholder if it vanishes", "[project]") {
     const Fixture files;
     document::Session session(files.registry);
