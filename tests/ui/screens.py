@@ -391,6 +391,15 @@ def looks(s):
 
 
 @state
+def light_mixer(s):
+    s.start(DEMO)
+    s.tab("Light mixer")
+    s.editor.wait(lambda t: any(m.endswith(".stops") for m in t["marks"]), "layers", 60)
+    time.sleep(20)
+    s.rest()
+
+
+@state
 def looks_compared(s):
     looks(s)
     s.editor.click("look.Look 1")
