@@ -393,9 +393,12 @@ def looks(s):
 @state
 def light_mixer(s):
     s.start(DEMO)
+    s.editor.click("menu.panels")
+    s.editor.click("panels.Light mixer")
     s.tab("Light mixer")
-    s.editor.wait(lambda t: any(m.endswith(".stops") for m in t["marks"]), "layers", 60)
-    time.sleep(20)
+    s.editor.wait(lambda t: "mixer.mixed" in t["marks"], "the mix", 240)
+    s.editor.click("mixer.spot")
+    s.editor.click("picture")
     s.rest()
 
 

@@ -59,7 +59,7 @@ void light_layer_buttons(PanelUi& e, std::span<const view::LightKey> keys, const
     const float size = ImGui::GetTextLineHeight() * 1.2f;
     const bool muted = std::ranges::all_of(keys, [&](view::LightKey key) { return board.muted(key); });
     const bool soloed = std::ranges::all_of(keys, [&](view::LightKey key) { return board.soloed(key); });
-    ImGui::AlignTextToFramePadding();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y); // in the middle of a row of frames
     if (letter_button("M", muted, size, "Mute: it does not shine in the view. Files are not changed"))
         for (const view::LightKey key : keys)
             board.mute(key, !muted);

@@ -118,6 +118,7 @@ void draw_light_mixer(SelectContext& e) {
                                layers.size() == 1 ? "" : "s", samples, samples == 1 ? "" : "s",
                                mixing.done() ? "" : ", still refined")
                        .c_str());
+    if (mixing.shown()) e.mark("mixer.mixed");
     const bool spots = !mixing.shares().empty();
     if (!ImGui::BeginTable(spots ? "layers at spot" : "layers", spots ? 5 : 4, ImGuiTableFlags_SizingStretchProp))
         return;
