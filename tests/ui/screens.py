@@ -394,8 +394,7 @@ def looks(s):
 def light_mixer(s):
     s.start(DEMO)
     s.editor.click("menu.panels")
-    s.editor.click("panels.Light mixer")
-    s.tab("Light mixer")
+    s.editor.click("panels.Light mixer")  # in front of its neighbours then
     s.editor.wait(lambda t: "mixer.mixed" in t["marks"], "the mix", 240)
     s.editor.click("mixer.spot")
     s.editor.click("picture")
