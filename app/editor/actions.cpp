@@ -6,6 +6,7 @@
 #include "document/session.hpp"
 #include "duplicating.hpp"
 #include "editor.hpp"
+#include "highlight.hpp"
 #include "importing.hpp"
 #include "io/material_emission.hpp"
 #include "kept_pictures.hpp"
@@ -287,6 +288,10 @@ constexpr auto actions = std::to_array<Action>({
     {"edit.replace_copied", "Replace by the copied", 0, 0,
      "Puts copies of what was copied in the places of the selected things, scaled to their size",
      [](const PanelContext& e) { return has_objects(e) && !e.copied.instances.empty(); }, run<replace_by_copied>},
+    {"edit.highlight", "Highlight here", 0, 0,
+     "Click a surface: the selected light or lamp goes around it, at its distance, to where the surface reflects it "
+     "to the view",
+     [](const PanelContext& e) { return can_solo(e); }, run<point_highlight>},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0,

@@ -133,6 +133,7 @@ void Editor::frame(const std::vector<int>* keys) {
             !problem.empty() && problem != files_->autosave_problem) // once, not each minute
             notices.add(LogLevel::error, files_->autosave_problem = std::move(problem));
     }
+    panel_state->mixing.follow(*this, picture_size_, view.denoise);
     refresh_picture();
     remember_preferences();
 }
@@ -298,7 +299,7 @@ void Editor::refresh_picture() {
                        .samples = view.samples ? view.samples : settings.samples,
                        .seconds = view.seconds,
                        .error = view.error,
-                       .paused = files_->jobs.picture_paused(),
+                       .paused = files_->jobs.picture_paused() || panel_state->mixing.shown(),
                        .look = view::look_of(view.display.layer),
                        .trial = trial.number};
     if (wanted == asked_ || scene().instances.live() == 0) return;

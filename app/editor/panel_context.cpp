@@ -73,6 +73,9 @@ double DocumentContext::film_aspect() const {
 
 std::shared_ptr<const view::Frame> PanelContext::shown_frame() const {
     const std::string_view layer = view.display.layer;
+    if (const auto& mix = panel_state->mixing.frame();
+        mix && mix->document == document_ && (layer == view::picture_layer || layer == view::exposure_layer))
+        return mix;
     const bool clean = layer == view::picture_layer || layer == view::exposure_layer || view::look_of(layer);
     auto frame = live_->best(view.denoise && clean);
     return frame && frame->document == document_ ? frame : nullptr; // another scene was opened in this frame

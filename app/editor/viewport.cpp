@@ -6,6 +6,7 @@
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "panels/panels.hpp"
+#include "panels/state.hpp"
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
@@ -150,6 +151,12 @@ void Viewport::update_textures(PanelContext& e) {
 
 void Viewport::draw_overlays(PanelContext& e) {
     draw_lights(e);
+    if (const auto& spot = e.panel_state->mixing.spot; spot && e.panel_state->mixing.shown()) {
+        const ImVec2 at(corner.x + float(spot->x) * size.x, corner.y + float(spot->y) * size.y);
+        ImGui::GetWindowDrawList()->AddCircle(at, 6 * ImGui::GetStyle().FontScaleMain,
+                                              ImGui::GetColorU32(colors::accent), 0, 2);
+        e.mark("picture.spot", at);
+    }
     if (const scene::Bounds box = e.selection.bounds(e.scene()); !box.empty()) { // for tests
         glm::dvec2 lo(1e9), hi(-1e9);
         for (int i = 0; i < 8; ++i) {

@@ -141,6 +141,7 @@ void Viewport::draw_status(PanelContext& e) {
         text = status.text;
     else if (drawn_ && !drawn_->clay)
         text = picture_note(*drawn_, status.compiling, e.views.now().has_value()) +
+               (e.panel_state->mixing.shown() ? "\nA mix of the lights' own pictures" : "") +
                (e.panel_state->lights.any() ? "\nSome lights are muted in the view" : "");
     if (const std::string selected = selection_note(e); !selected.empty() && status.state != view::ViewState::failed)
         text = selected + (text.empty() ? "" : "\n") + text;

@@ -3,6 +3,7 @@
 #include "document/sky.hpp"
 #include "io/sky.hpp"
 #include "pulse.hpp"
+#include "scene/sky_blur.hpp"
 #include "values.hpp"
 
 #include <shared_mutex>
@@ -38,6 +39,15 @@ void make_sky(const Shared& w, const std::string& type, const nb::kwargs& values
     w->edit(take(std::move(edit)));
 }
 
+void blur(const Shared& w, double degrees) {
+    auto edit = [&] {
+        const Scene before = w->scene();
+        const nb::gil_scoped_release release;
+        return blur_sky(before, degrees);
+    }();
+    w->edit(take(std::move(edit)));
+}
+
 } // namespace
 
 void bind_sky(nb::class_<Workspace>& c) {
@@ -47,6 +57,10 @@ void bind_sky(nb::class_<Workspace>& c) {
           "parameters. If the sky is already of that type, other values are kept.",
           nb::sig("def make_sky(self, type: str, **values: float | bool | str | collections.abc.Sequence[float]) -> "
                   "None"));
+    c.def(
+        "blur_sky", &blur, "degrees"_a,
+        "Softens the sky's image by a Gaussian of this standard deviation, 0.5 to 180; its light stays. Error: it has "
+        "no image.");
 }
 
 } // namespace restage::python

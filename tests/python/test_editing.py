@@ -296,6 +296,21 @@ def test_skies_of_plugins(demo, scenes, tmp_path):
     assert demo.sky.type == "sunsky"
 
 
+def test_a_sky_is_blurred_in_one_step(demo):
+    demo.set_sky(color=(1, 1, 1))
+    with pytest.raises(restage.Error, match="no image to blur"):
+        demo.blur_sky(10)
+    demo.make_sky("sunsky", elevation=30)
+    steps = len(demo.history)
+    with pytest.raises(restage.Error, match="0.5 to 180"):
+        demo.blur_sky(0.1)
+    demo.blur_sky(10)
+    assert len(demo.history) == steps + 1
+    assert demo.sky.is_image and demo.sky.type == ""
+    demo.undo()
+    assert demo.sky.type == "sunsky"
+
+
 def test_undo_leads_back_and_redo_forward(demo, tmp_path):
     before = snapshot(demo, tmp_path, "before")
     start = len(demo.history)

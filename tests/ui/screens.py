@@ -391,6 +391,17 @@ def looks(s):
 
 
 @state
+def light_mixer(s):
+    s.start(DEMO)
+    s.editor.click("menu.panels")
+    s.editor.click("panels.Light mixer")  # in front of its neighbours then
+    s.editor.wait(lambda t: "mixer.mixed" in t["marks"], "the mix", 240)
+    s.editor.click("mixer.spot")
+    s.editor.click("picture")
+    s.rest()
+
+
+@state
 def looks_compared(s):
     looks(s)
     s.editor.click("look.Look 1")

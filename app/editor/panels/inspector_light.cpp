@@ -94,6 +94,7 @@ bool light_value_rows(PanelUi& e, glm::vec3& value, const char* strength_label, 
     e.mark(mark + ".kelvin");
     const std::string_view radiometry(unit);
     form_row(strength_label, radiometry == "W/m²"   ? "Irradiance: power per square metre facing the light"
+                             : radiometry == "×"    ? "Times the light's own"
                              : radiometry == "W/sr" ? "Radiant intensity: power per solid angle"
                                                     : "Radiance: independent of distance");
     const std::string format = fmt::format("%.4g {}", unit);

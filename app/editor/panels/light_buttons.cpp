@@ -54,6 +54,23 @@ void light_row_end(PanelUi& e, view::LightKey key, const std::string& name, cons
     e.mark("lights.solo." + name);
 }
 
+void light_layer_buttons(PanelUi& e, std::span<const view::LightKey> keys, const std::string& mark) {
+    view::LightBoard& board = e.panel_state->lights;
+    const float size = ImGui::GetTextLineHeight() * 1.2f;
+    const bool muted = std::ranges::all_of(keys, [&](view::LightKey key) { return board.muted(key); });
+    const bool soloed = std::ranges::all_of(keys, [&](view::LightKey key) { return board.soloed(key); });
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y); // in the middle of a row of frames
+    if (letter_button("M", muted, size, "Mute: it does not shine in the view. Files are not changed"))
+        for (const view::LightKey key : keys)
+            board.mute(key, !muted);
+    e.mark(mark + ".mute");
+    ImGui::SameLine(0, 3 * ImGui::GetStyle().FontScaleMain);
+    if (letter_button("S", soloed, size, "Solo: in the view, only lights marked so shine. Files are not changed"))
+        for (const view::LightKey key : keys)
+            board.solo(key, !soloed);
+    e.mark(mark + ".solo");
+}
+
 void light_board_note(PanelUi& e) {
     if (!e.panel_state->lights.any()) return;
     warning_note("Some lights are muted, only in the view.");

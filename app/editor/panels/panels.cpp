@@ -21,6 +21,8 @@ constexpr auto panels = std::to_array<Panel>({
     {"Inspector", give<draw_inspector>, Dock::right, true, "The selection: its place, material and light"},
     {"Scene", give<draw_scene_settings>, Dock::right, true, "Sky, camera, film and rendering"},
     {"Arrange", give<draw_arrange>, Dock::right, false, "Align, distribute, mirror, repeat and replace the selection"},
+    {"Light mixer", give<draw_light_mixer>, Dock::right, false,
+     "A fader for each light: the picture follows without being rendered again"},
     {"History", give<draw_history>, Dock::bottom, true, "Every change, to go back to"},
     {"Looks", give<draw_looks>, Dock::bottom, true, "Named variations of the scene, and pictures to compare"},
     {"Import report", give<draw_import_report>, Dock::bottom, true,

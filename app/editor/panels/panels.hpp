@@ -17,6 +17,7 @@ void draw_viewport(PanelContext& editor);
 void draw_outliner(SelectContext& editor);
 void draw_inspector(SelectContext& editor);
 void draw_arrange(SelectContext& editor);
+void draw_light_mixer(SelectContext& editor);
 void draw_scene_settings(SelectContext& editor, PictureView& picture);
 void draw_import_report(SelectContext& editor);
 void draw_convergence(PanelUi& editor, const PictureView& picture);

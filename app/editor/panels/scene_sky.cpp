@@ -7,6 +7,7 @@
 #include "scene/edits.hpp"
 #include "scene_development.hpp"
 #include "scene_panel.hpp"
+#include "sky_blurring.hpp"
 
 #include "document/exposure.hpp"
 #include "io/material_emission.hpp"
@@ -276,6 +277,7 @@ void sky_section(EditContext& e) {
                 ask_sky(e, sky, "Rotate sky", "sky.rotation");
             }
             e.mark("sky.rotation");
+            blur_row(e);
         }
         float strength = std::max({sky.scale.x, sky.scale.y, sky.scale.z});
         glm::vec3 tint = strength > 0 ? sky.scale / strength : glm::vec3(1);

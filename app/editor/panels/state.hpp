@@ -9,6 +9,7 @@
 #include "image_loads.hpp"
 #include "kept_pictures.hpp"
 #include "library.hpp"
+#include "light_mixing.hpp"
 #include "look_pictures.hpp"
 #include "material_balls.hpp"
 #include "palette.hpp"
@@ -88,6 +89,7 @@ struct SceneState {
     bool device_shown = false;
     int threads = 0; // while it is dragged
     bool choose_sky = false; // show the row for a sky's image before there is one
+    float blur = 10; // of the sky [deg]
 };
 
 struct ReportState {
@@ -143,7 +145,7 @@ struct PanelState {
     std::map<std::string, check::PluginReport> checks; // by plugin, the latest
     std::set<std::string> said; // warnings not to repeat each frame
     explicit PanelState(const std::function<void()>& wake)
-        : loads(wake), balls(wake), looks(wake), skies(wake), things(wake) {}
+        : loads(wake), balls(wake), looks(wake), skies(wake), things(wake), mixing(wake) {}
     // For a closed scene.
     void forget_document() {
         balls.forget();
@@ -162,6 +164,7 @@ struct PanelState {
         arrange.found = {};
         history_seen = 0;
         lights.forget();
+        mixing.forget();
         plugins.asked.clear(); // may refer to its things
     }
 
@@ -177,6 +180,7 @@ struct PanelState {
     OutlinerState outliner;
     SceneState scene;
     view::LightBoard lights; // of the live picture
+    LightMixing mixing;
     ReportState report;
     LogState log;
     ConvergenceState convergence;
