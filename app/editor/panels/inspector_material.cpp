@@ -318,7 +318,10 @@ void material_section(SelectContext& e, MaterialId id) {
 
     const auto plugin = e.registry().find_material(material->type);
     form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of surface it is");
-    if (ImGui::BeginCombo("##type", plugin ? type_name(*plugin->table).c_str() : material->type.c_str(),
+    const std::string full = plugin ? type_name(*plugin->table) : material->type;
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+    const bool fits = !plugin || ImGui::CalcTextSize(full.c_str()).x <= room;
+    if (ImGui::BeginCombo("##type", fits ? full.c_str() : plugin->table->label.c_str(),
                           ImGuiComboFlags_HeightLargest)) {
         for (const auto& [what, types] : types_by_use(e)) {
             ImGui::SeparatorText(what.c_str());
