@@ -8,7 +8,7 @@ namespace restage::editor {
 
 namespace {
 
-ImVec4 grey(float v, float alpha = 1) { return {v, v * 1.01f, std::min(v * 1.04f, 1.f), alpha}; }
+ImVec4 grey(float v, float alpha = 1) { return {v, std::min(v + 0.0015f, 1.f), std::min(v + 0.006f, 1.f), alpha}; }
 
 constexpr Colors dark{.accent = {0.96f, 0.62f, 0.22f, 1},
                       .hover = {0.55f, 0.78f, 0.98f, 1},
@@ -127,6 +127,7 @@ void apply_colors(Theme theme) {
     else
         ImGui::StyleColorsLight();
     ImGui::GetStyle().DisabledAlpha = on_dark ? 0.45f : 0.55f;
+    ImGui::GetStyle().FrameBorderSize = on_dark ? 0 : 1; // fields are hardly lighter than windows
     ImVec4* c = ImGui::GetStyle().Colors;
     c[ImGuiCol_Text] = grey(g.text);
     c[ImGuiCol_TextDisabled] = now.dim;
@@ -211,7 +212,6 @@ void apply_theme(float scale, const std::filesystem::path& fonts, std::span<cons
     style.GrabRounding = 3;
     style.TabRounding = 3;
     style.WindowBorderSize = 1;
-    style.FrameBorderSize = 0;
     style.TabBarBorderSize = 1;
     style.WindowMenuButtonPosition = ImGuiDir_None;
 
