@@ -6,6 +6,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
+#include "library.hpp"
 #include "opening.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
@@ -159,6 +160,8 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
         // Object files are inserted into the open scene; scenes, and any file if no scene is open, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
+        else if (extension == "json")
+            drop_preset(*this, path, on);
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
