@@ -665,7 +665,7 @@ def materials_of_a_file(s):
     s.editor.key("ctrl+a")
     s.editor.type(str(DEMO))
     s.editor.key("Return")
-    s.editor.wait(lambda t: "materials.Ground" in t["marks"], "the materials", 120)
+    s.editor.wait(lambda t: "materials.Oak" in t["marks"], "the materials", 120)
     balls(s, 4)
 
 
