@@ -156,12 +156,14 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     for (const fs::path& given : paths) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
+        if (extension == "json") {
+            drop_preset(*this, path, on);
+            continue;
+        }
         if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
         // Object files are inserted into the open scene; scenes, and any file if no scene is open, are opened.
         else if (takes_table(*this, extension, on))
             drop_table(*this, path, on);
-        else if (extension == "json")
-            drop_preset(*this, path, on);
         else if (is_one_of(extension, {"obj", "ply", "stl", "gltf", "glb"}) && scene().instances.live() > 0)
             insert(path, over ? std::optional(film) : std::nullopt);
         else {
