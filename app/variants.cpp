@@ -2,12 +2,11 @@
 #include "variants.hpp"
 
 #include "frames.hpp"
-#include "query/navigation.hpp"
-#include "scene/bounds.hpp"
+#include "query/camera_path.hpp"
+#include "view/video.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
 namespace restage::app {
@@ -44,7 +43,7 @@ Result<std::vector<std::string>> look_names(const document::Looks& looks, const 
 } // namespace
 
 Result<std::vector<Variant>> variants(const scene::Scene& scene, const document::Looks& looks, const std::string& look,
-                                      const std::string& camera, std::uint32_t frames) {
+                                      const std::string& camera, const CameraMove& move) {
     RESTAGE_TRY(const auto names, look_names(looks, look));
     std::vector<std::string> cameras;
     if (camera == all && !scene::find_by_name<scene::Camera>(scene, all)) {
@@ -55,24 +54,28 @@ Result<std::vector<Variant>> variants(const scene::Scene& scene, const document:
     std::vector<Variant> list;
     for (const std::string& name : names)
         for (const std::string& one : cameras)
-            for (std::uint32_t frame = std::min(frames, 1u); frame <= frames; ++frame)
-                list.push_back({name, one, frame, frames ? 360.0 * (frame - 1) / frames : 0});
+            for (std::uint32_t frame = std::min(move.frames(), 1u); frame <= move.frames(); ++frame)
+                list.push_back({name, one, frame});
     return list;
 }
 
-void turn_camera(scene::Scene& scene, double degrees) {
-    const auto id = scene.active_camera.value;
-    const scene::Camera* camera = scene.cameras.find(id);
-    const scene::Bounds bounds = scene::world_bounds(scene);
-    if (!camera || bounds.empty() || degrees == 0) return;
-    const glm::dvec3 eye(camera->camera_to_world[3]), ahead = glm::normalize(glm::dvec3(camera->camera_to_world[2]));
-    const double distance = glm::dot(bounds.center() - eye, ahead);
-    const glm::dvec3 center = distance > 0 ? eye + distance * ahead : bounds.center();
-    const glm::dmat4 turn = glm::rotate(glm::translate(glm::dmat4(1), center), glm::radians(degrees),
-                                        glm::normalize(query::guess_up(*camera)));
-    scene::Camera turned = *camera;
-    turned.camera_to_world = turn * glm::translate(glm::dmat4(1), -center) * camera->camera_to_world;
-    scene.cameras.set(id, std::move(turned), ++scene.clock);
+std::string CameraMove::what(std::uint32_t frame) const {
+    if (frame == 0) return "";
+    if (path > 0) return fmt::format("frame {} of {} on the path through all cameras", frame, path);
+    return frame > 1 ? fmt::format("turned by {} degrees", 360.0 * (frame - 1) / turntable) : "";
+}
+
+Result<> move_camera(scene::Scene& scene, const CameraMove& move, std::uint32_t frame) {
+    const scene::Camera* camera = scene.cameras.find(scene.active_camera.value);
+    if (!camera || frame == 0) return {};
+    if (move.path > 0) {
+        const auto through = query::all_cameras(scene);
+        if (through.size() < 2) return fail("--camera-path: the scene has one camera; a path needs two or more");
+        scene = query::seen_from(scene, query::camera_path(through, move.path)[frame - 1]);
+    } else {
+        scene = query::seen_from(scene, query::turned(scene, *camera, 360.0 * (frame - 1) / move.turntable));
+    }
+    return {};
 }
 
 std::string variant_path(std::string pattern, const Variant& variant) {
@@ -83,12 +86,15 @@ std::string variant_path(std::string pattern, const Variant& variant) {
 
 Result<> check_variant_paths(const std::string& pattern, const std::vector<Variant>& variants) {
     std::map<std::string, const Variant*> made;
-    for (const Variant& variant : variants)
+    const bool video = view::is_video_path(pattern);
+    for (const Variant& variant : variants) {
+        if (video && variant.frame > 1) continue;
         if (const auto [other, fresh] = made.emplace(variant_path(pattern, variant), &variant); !fresh)
             return fail(fmt::format("{} would be written twice; put {} in the name", other->first,
                                     other->second->look != variant.look       ? "{look}"
                                     : other->second->camera != variant.camera ? "{camera}"
                                                                               : "####"));
+    }
     return {};
 }
 

@@ -16,11 +16,13 @@
 #include "standard_streams.hpp"
 #include "variants.hpp"
 #include "view/merge_pictures.hpp"
+#include "view/video.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -35,8 +37,9 @@ struct Options : RenderOptions {
     std::string format;                   // of a scene on stdin; "" = pbrt
     std::string frames;                   // "1-24"; "" = the one scene
     std::string look;                     // its name, or "all"; "" = the scene as it is
-    std::uint32_t turntable = 0;          // frames; 0 = none
-    double turn = 0;                      // of the frame [deg]
+    CameraMove move;
+    std::uint32_t move_frame = 0;         // of it, from 1
+    double fps = 30;                      // of videos
     std::vector<std::string> import_options; // "up=z"
     std::vector<std::string> assignments; // "Wall paint.reflectance=0.2"
     std::uint32_t first_sample = 0;
@@ -124,7 +127,7 @@ Metadata what_is_rendered(const Options& o, const scene::Scene& scene) { // as c
         changes += (changes.empty() ? "import " : "; import ") + option;
     if (!o.look.empty()) changes += " --look " + o.look;
     if (!o.camera.empty()) changes += " --camera " + o.camera;
-    if (o.turn != 0) changes += fmt::format(" turned by {} degrees", o.turn);
+    if (const std::string moved = o.move.what(o.move_frame); !moved.empty()) changes += " " + moved;
     if (o.studio) changes += " --studio";
     if (!o.development.background.empty()) changes += " --background"; // the sky is hidden
     return {{"restage:scene", o.scene == "-" ? "stdin" : std::filesystem::path(o.scene).filename().string()},
@@ -200,7 +203,7 @@ Result<int> render_scene(Context& context, Options o, scene::Scene scene, Render
         return fail(o.scene + ": " + scene::no_camera + "; add one to its original scene");
     RESTAGE_CHECK(apply_assignments(context, o, scene));
     RESTAGE_CHECK(apply_options(context, o, scene));
-    turn_camera(scene, o.turn);
+    RESTAGE_CHECK(move_camera(scene, o.move, o.move_frame));
     RESTAGE_CHECK(apply_background(o.development, scene));
     RESTAGE_CHECK(apply_crop(o, scene));
     std::optional<view::StoredPicture> before;
@@ -265,25 +268,38 @@ Result<int> render_frame(Context& context, const Options& o, RendererPointer& re
     document::Looks looks;
     RESTAGE_TRY(auto imported,
                 open_scene_with(context, piped ? piped->path().string() : o.scene, o.strict, o.import_options, &looks));
-    RESTAGE_TRY(const auto list, variants(imported.scene, looks, o.look, o.camera, o.turntable));
+    RESTAGE_TRY(const auto list, variants(imported.scene, looks, o.look, o.camera, o.move));
     for (const std::string& path : o.outputs)
         if (auto good = check_variant_paths(path, list); !good) return fail("-o", good.error());
     if (!o.statistics.empty() && o.statistics != "-")
         if (auto good = check_variant_paths(o.statistics, list); !good) return fail("--statistics", good.error());
     int code = exit_ok;
+    std::map<std::string, view::VideoFrames> videos;
     for (const Variant& variant : list) {
         Options one = o;
         one.look = variant.look;
         one.camera = variant.camera;
-        one.turn = variant.turn;
-        for (std::string& path : one.outputs)
+        one.move_frame = variant.frame;
+        for (std::string& path : one.outputs) {
             path = variant_path(path, variant);
+            if (!view::is_video_path(path)) continue;
+            auto video = videos.find(path);
+            if (video == videos.end()) {
+                RESTAGE_TRY(auto frames, view::VideoFrames::create());
+                video = videos.emplace(path, std::move(frames)).first;
+            }
+            path = video->second.next();
+        }
         for (std::string* path : {&one.statistics, &one.resume})
             *path = variant_path(*path, variant);
         const document::Look* look = looks.find(variant.look);
         RESTAGE_TRY(code, render_scene(context, std::move(one),
                                        look ? document::with_look(imported.scene, *look) : imported.scene, renderer));
         if (interrupted()) break;
+    }
+    for (const auto& [path, frames] : videos) { // of the frames so far, if it was interrupted
+        RESTAGE_CHECK(frames.write(path, o.fps));
+        context.log.info(path + " was written");
     }
     return code;
 }
@@ -293,6 +309,11 @@ Result<void> check(Context& context, const Options& o) {
     std::ptrdiff_t to_stdout = o.statistics == "-";
     for (const std::string& text : o.outputs) {
         RESTAGE_TRY(const Output output, Output::create(text));
+        if (view::is_video_path(text)) {
+            if (o.move.frames() == 0) return fail("-o " + text + ": a video needs --turntable or --camera-path");
+            if (auto possible = view::VideoFrames::create(); !possible) return fail("-o " + text, possible.error());
+            continue;
+        }
         RESTAGE_CHECK(check_picture_path(output.path()));
         to_stdout += output.to_stdout();
     }
@@ -363,12 +384,23 @@ void add_render(CLI::App& program, Context& context) {
                      "A look of a project, as `restage info` lists them, or all: each is one picture, and {look} in -o "
                      "is its name, for example -o \"{look}.png\". Likewise --camera all and {camera}")
         ->type_name("NAME");
+    auto* turntable =
+        command
+            ->add_option("--turntable", o->move.turntable,
+                         "Render this many frames of one turn around the scene, with a number in place of # in -o: "
+                         "-o turn.####.png; or a video, which needs ffmpeg: -o turn.mp4 (.webm, .mov, .mkv, .gif)")
+            ->type_name("FRAMES")
+            ->check(CLI::Range(1u, 100000u));
     command
-        ->add_option("--turntable", o->turntable,
-                     "Render this many frames of one turn around the scene, with a number in place of # in -o: "
-                     "-o turn.####.png")
+        ->add_option("--camera-path", o->move.path,
+                     "Likewise the way through all cameras of the scene, in its order, smoothly and each stretch in "
+                     "the same time")
         ->type_name("FRAMES")
-        ->check(CLI::Range(1u, 100000u));
+        ->check(CLI::Range(2u, 100000u))
+        ->excludes(turntable);
+    command->add_option("--fps", o->fps, "Frames of a video in a second")
+        ->check(CLI::Range(0.1, 1000.0))
+        ->capture_default_str();
     command
         ->add_option("--set", o->assignments,
                      "Change the scene: \"Wall paint.reflectance=0.1,0.2,0.3\", Chair.material=oak, Lamp.value=40, "

@@ -34,6 +34,15 @@ bool BackgroundJob::report(double done, std::string_view stage) {
     return !stopping();
 }
 
+void BackgroundJob::wait_while_paused(const std::function<bool()>& given_up) {
+    if (!paused_) return;
+    const auto begin = std::chrono::steady_clock::now();
+    std::unique_lock lock(mutex_);
+    while (paused_ && !stopping() && !(given_up && given_up()))
+        goes_on_.wait_for(lock, std::chrono::milliseconds(100)); // given_up may change unnoticed
+    seconds_paused_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 BackgroundJobs::~BackgroundJobs() {
     for (auto& job : jobs_)
         job->cancelled_ = true;
@@ -46,6 +55,8 @@ void BackgroundJobs::start(Options options, Work work) {
     job->title_ = std::move(options.title);
     job->can_finish_early_ = options.can_finish_early;
     job->pauses_picture_ = options.pauses_picture;
+    job->can_pause_ = options.can_pause;
+    job->details_ = std::move(options.details);
     job->wake_ = wake_;
     BackgroundJob& started = *job;
     jobs_.push_back(std::move(job));
@@ -62,7 +73,8 @@ void BackgroundJobs::start(Options options, Work work) {
 }
 
 bool BackgroundJobs::picture_paused() const {
-    return std::any_of(jobs_.begin(), jobs_.end(), [](const auto& job) { return job->pauses_picture_; });
+    return std::any_of(jobs_.begin(), jobs_.end(),
+                       [](const auto& job) { return job->pauses_picture_ && !job->paused_; });
 }
 
 double BackgroundJobs::progress() const {
@@ -98,25 +110,40 @@ void BackgroundJobs::update(PanelContext& editor) {
                          ImGuiWindowFlags_AlwaysAutoResize))
         for (auto& job : jobs_) {
             ImGui::PushID(job.get());
-            double done = 0;
+            double done = 0, paused = 0;
             std::string stage;
             {
                 std::lock_guard lock(job->mutex_);
                 done = std::clamp(job->done_, 0.0, 1.0);
                 stage = job->stage_;
+                paused = job->seconds_paused_;
             }
             const double elapsed =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - job->start_).count();
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - job->start_).count() - paused;
             ImGui::TextUnformatted(job->title_.c_str());
-            if (done > 0.02)
+            if (done > 0.02 && !job->paused_)
                 stage += fmt::format("{}{} left", stage.empty() ? "" : ", ", duration(elapsed * (1 - done) / done));
             ImGui::ProgressBar(float(done), {-1, 0}, fmt::format("{:.0f} %", done * 100).c_str());
             editor.mark("job.bar");
-            ImGui::TextColored(colors::dim, "%s", job->cancelled_ ? "stopping" : stage.c_str());
+            ImGui::TextColored(colors::dim, "%s",
+                               job->cancelled_ ? "stopping"
+                               : job->paused_  ? "paused"
+                                               : stage.c_str());
+            if (job->details_) job->details_(editor);
             if (job->can_finish_early_) {
                 if (ImGui::Button("Enough")) job->finish_early_ = true;
                 ImGui::SetItemTooltip("Stop here and write the picture as it is now");
                 editor.mark("job.enough");
+                ImGui::SameLine();
+            }
+            if (job->can_pause_ && !job->cancelled_) {
+                if (ImGui::Button(job->paused_ ? "Resume###pause" : "Pause###pause")) {
+                    job->paused_ = !job->paused_;
+                    job->goes_on_.notify_all();
+                }
+                ImGui::SetItemTooltip("%s", job->paused_ ? "Goes on where it stopped"
+                                                         : "Stops for a while and leaves the processor to the editor");
+                editor.mark("job.pause");
                 ImGui::SameLine();
             }
             if (ImGui::Button("Cancel")) job->cancelled_ = true;

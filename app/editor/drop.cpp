@@ -6,6 +6,7 @@
 #include "editor.hpp"
 #include "files.hpp"
 #include "io/image_file.hpp"
+#include "library.hpp"
 #include "opening.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
@@ -165,6 +166,10 @@ void PanelContext::drop(const std::vector<fs::path>& paths, ImVec2 screen) {
     for (const fs::path& given : paths) {
         const fs::path path = fs::absolute(given).lexically_normal();
         const std::string extension = extension_of(path);
+        if (extension == "json") {
+            drop_preset(*this, path, on);
+            continue;
+        }
         if (is_one_of(extension, picture_files)) drop_image(*this, path, on);
         // Other scenes, and any file if no scene is open, are opened.
         else if (takes_table(*this, extension, on))

@@ -106,6 +106,7 @@ void Editor::request_quit() {
 // -----------------------------------------------------------------------------------------------------------
 
 void Editor::frame(const std::vector<int>* keys) {
+    if (current_theme() != preferences.theme) apply_colors(preferences.theme);
     marks_.clear();
     hovered_before = std::exchange(hovered, {});
     drop_target_before = std::exchange(drop_target, {});

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Final pictures: the scene at its film's full size, or each of its looks and cameras, by a separate renderer in the
-// background.
+// Renders final pictures: each shot by one renderer, on the thread of a background job.
 #include "base/version.hpp"
-#include "document/looks.hpp"
+#include "document/session.hpp"
 #include "file_browser.hpp"
 #include "files.hpp"
-#include "looks.hpp"
+#include "final_batch.hpp"
+#include "final_pictures.hpp"
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
+#include "query/camera_path.hpp"
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
 #include "render/renderer.hpp"
 #include "saving.hpp"
 #include "scene/development.hpp"
-#include "scene/edits.hpp"
 #include "view/picture.hpp"
-#include "widgets.hpp"
+#include "view/video.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <imgui.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
+#include <memory>
+#include <optional>
 
 namespace restage::editor {
 
@@ -31,39 +30,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Wish {
-    std::uint32_t samples = 64;
-    float error = 0; // > 0: stop at this error, or at `samples`
-    bool from_view = true; // instead of the scene's camera, if they differ
-    bool denoise = true;
-    bool all_looks = false, all_cameras = false; // each is a picture, and its name a part of the file's
-    std::string denoiser; // as in Preferences
-    fs::path path;
-};
-
-struct Shot { // a picture of a batch
-    scene::Scene scene;
-    std::string name; // "Oak, Camera 2"; "" = there is only this one
-    fs::path path;
-};
-
-// The part of a job that is one of its pictures.
-class Part {
+// What a picture reports to: its part of its shot, which is a part of the batch.
+class Progress {
   public:
-    Part(BackgroundJob& job, std::size_t index, std::size_t count, const std::string& name)
-        : job_(job),
-          from_(double(index) / double(count)),
-          share_(1 / double(count)),
-          before_(name.empty() ? "" : fmt::format("{} of {}, {}: ", index + 1, count, name)) {}
-    bool report(double done, const std::string& stage) { return job_.report(from_ + done * share_, before_ + stage); }
-    bool cancelled() const { return job_.cancelled(); }
-    bool stopping() const { return job_.stopping(); }
+    Progress(BackgroundJob& job, FinalBatch& batch, std::string name)
+        : job_(job), batch_(batch), name_(std::move(name)) {}
+    void frame(std::size_t index, std::size_t count) {
+        from_ = double(index) / double(count);
+        share_ = 1 / double(count);
+        before_ = name_ + (count > 1 ? fmt::format("{} of {}: ", index + 1, count) : "");
+    }
+    bool report(double done, const std::string& stage) {
+        batch_.report(from_ + done * share_);
+        return job_.report(batch_.done(), before_ + stage) && !stopping();
+    }
+    bool cancelled() const { return job_.cancelled() || batch_.cancelled(); }
+    bool stopping() const { return job_.stopping() || cancelled() || batch_.enough(); }
     void keep_result() { job_.keep_result(); }
+    void wait_while_paused() {
+        job_.wait_while_paused([this] { return stopping(); });
+    }
 
   private:
     BackgroundJob& job_;
-    double from_, share_;
-    std::string before_;
+    FinalBatch& batch_;
+    std::string name_, before_;
+    double from_ = 0, share_ = 1;
 };
 
 double now_seconds() {
@@ -107,15 +99,21 @@ Done write(std::shared_ptr<const Finished> done, const fs::path& path) {
 
 using RendererPointer = std::unique_ptr<render::Renderer>;
 
-// `renderer`: made for the first picture.
-Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render::RendererOptions options,
-                    RendererPointer& renderer, const Shot& shot, const Wish& wish, const std::string& scene_name) {
-    const scene::Scene& scene = shot.scene;
-    RESTAGE_CHECK(view::check_picture_path(shot.path.string()));
+struct Renders { // what all pictures are rendered with
+    const plugin::Registry& registry;
+    Log& log;
+    render::RendererOptions options;
+    std::string scene; // name of its file
+};
+
+// Null if it was cancelled. `renderer`: made for the first picture.
+Result<std::shared_ptr<Finished>> render(Progress& job, const Renders& with, RendererPointer& renderer,
+                                         const scene::Scene& scene, const FinalWish& wish) {
+    render::RendererOptions options = with.options;
     job.report(0, "opening the renderer");
     options.stand_ins = false;
     if (!renderer) {
-        RESTAGE_TRY(renderer, render::Renderer::create(options, render::material_lookup(registry), log));
+        RESTAGE_TRY(renderer, render::Renderer::create(options, render::material_lookup(with.registry), with.log));
     }
     renderer->forget_scene(); // looks of one document have the same versions
     renderer->reset_stats();
@@ -125,11 +123,12 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
     renderer->plan(wish.samples);
     RESTAGE_CHECK(renderer->or_revive(renderer->sync(scene), scene, revived));
     // Denoising is a small part at the end of the bar.
-    const bool denoise = wish.denoise && !registry.denoisers().empty();
+    const bool denoise = wish.denoise && !with.registry.denoisers().empty();
     const double traced = denoise ? 0.97 : 1.0, start = now_seconds();
     std::uint32_t batch = 1;
     double error = 0; // when looked at last
     while (renderer->samples() < wish.samples && !job.stopping()) {
+        job.wait_while_paused();
         const double before = now_seconds();
         batch = std::min(batch, wish.samples - renderer->samples());
         if (wish.error > 0) batch = std::min(batch, render::next_look(renderer->samples()) - renderer->samples());
@@ -148,7 +147,7 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
         // Batches of about 0.2 s, so that a stop is quick and the bar moves.
         batch = std::uint32_t(std::clamp(0.2 / std::max((now_seconds() - before) / batch, 1e-6), 1.0, 1024.0));
     }
-    if (job.cancelled() || renderer->samples() == 0) return say(LogLevel::info, "The final picture was cancelled");
+    if (job.cancelled() || renderer->samples() == 0) return std::shared_ptr<Finished>();
     auto finished = std::make_shared<Finished>();
     view::Picture& picture = finished->picture;
     const scene::Film& film = scene.film.value;
@@ -162,7 +161,7 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
         job.keep_result(); // the render may have taken hours
         job.report(traced, "denoising");
         const auto clean = [&]() -> Result<void> {
-            RESTAGE_TRY(const auto chosen, render::choose_denoiser(registry, wish.denoiser));
+            RESTAGE_TRY(const auto chosen, render::choose_denoiser(with.registry, wish.denoiser));
             denoiser = render::denoiser_label(chosen, plugin::DenoiseQuality::high);
             RESTAGE_TRY(picture.denoised, render::denoise(picture.film, chosen, plugin::DenoiseQuality::high,
                                                           options.threads, [&](double done) {
@@ -177,12 +176,12 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
             if (cleaned.error().cancelled())
                 finished->text = "denoising was cancelled: written without it; ";
             else
-                log.error("the final picture is not denoised: " + cleaned.error().message);
+                with.log.error("the final picture is not denoised: " + cleaned.error().message);
         }
     }
     const auto& stats = renderer->stats();
     finished->how = {.metadata = {{"restage:version", version()},
-                                  {"restage:scene", scene_name},
+                                  {"restage:scene", with.scene},
                                   {"restage:device", renderer->device().info().name},
                                   {"restage:tracer", renderer->tracer_name()},
                                   {"restage:samples", std::to_string(renderer->samples())},
@@ -190,149 +189,103 @@ Result<Done> render(Part job, const plugin::Registry& registry, Log& log, render
                                   {"restage:max_depth", std::to_string(scene.settings.value.max_depth)},
                                   {"restage:denoiser", denoiser}}};
     for (const auto& [type, count] : stats.not_finite)
-        log.warning(fmt::format("{} samples of material type \"{}\" were non-finite and were omitted", count, type));
+        with.log.warning(
+            fmt::format("{} samples of material type \"{}\" were non-finite and were omitted", count, type));
     finished->text += fmt::format("{}x{}, {} samples per pixel in {:.1f} s", picture.film.width, picture.film.height,
                                   renderer->samples(), now_seconds() - start);
-    return write(finished, shot.path);
+    return finished;
 }
 
-// "kitchen.png" -> "kitchen - Oak - Camera 2.png"
-fs::path shot_path(const fs::path& path, const std::vector<std::string>& names) {
-    std::string stem = path.stem().string();
-    for (std::string name : names) {
-        for (char& c : name)
-            if (std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos) c = '_';
-        stem += " - " + name;
+// All pictures of a camera's move, and the video of them.
+Result<Done> render_move(Progress& job, const Renders& with, RendererPointer& renderer, const Shot& shot,
+                         const FinalWish& wish) {
+    std::optional<view::VideoFrames> video;
+    if (view::is_video_path(shot.path)) {
+        RESTAGE_TRY(auto frames, view::VideoFrames::create());
+        video.emplace(std::move(frames));
+    } else {
+        RESTAGE_CHECK(view::check_picture_path(shot.path.string()));
     }
-    return path.parent_path() / (stem + path.extension().string());
-}
-
-std::vector<Shot> shots(const PanelContext& e, const Wish& wish) {
-    std::vector<std::pair<std::string, scene::Scene>> scenes;
-    if (wish.all_looks)
-        for (const document::Look& look : e.session().looks().list)
-            scenes.emplace_back(look.name, document::with_look(e.scene(), look));
-    else
-        scenes.emplace_back("", wish.from_view ? scene_as_seen(e) : e.scene());
-    std::vector<Shot> list;
-    for (const auto& variant : scenes) {
-        const std::string& look = variant.first;
-        const scene::Scene& scene = variant.second;
-        std::vector<std::string> names;
-        if (!look.empty()) names.push_back(look);
-        if (!wish.all_cameras) {
-            list.push_back({scene, look, shot_path(wish.path, names)});
-            continue;
-        }
-        std::set<std::string> taken; // cameras of a file may have equal names
-        names.emplace_back();
-        scene.cameras.each([&](scene::Id<scene::Camera> id, const scene::Camera& camera) {
-            names.back() = taken.contains(camera.name) ? scene::next_name(camera.name, taken) : camera.name;
-            taken.insert(names.back());
-            scene::Scene from = scene;
-            from.active_camera = {id, ++from.clock};
-            list.push_back({std::move(from), fmt::format("{}", fmt::join(names, ", ")), shot_path(wish.path, names)});
-        });
+    const double start = now_seconds();
+    for (std::size_t i = 0; i < shot.cameras.size(); ++i) {
+        job.frame(i, shot.cameras.size());
+        RESTAGE_TRY(const auto finished,
+                    render(job, with, renderer, query::seen_from(shot.scene, shot.cameras[i]), wish));
+        if (!finished) return Done();
+        const std::string file = video ? video->next() : frame_file(shot.path, i + 1).string();
+        RESTAGE_CHECK(view::write_picture(file, finished->picture, finished->how));
     }
-    return list;
+    if (video) {
+        job.report(1, "making the video");
+        RESTAGE_CHECK(video->write(shot.path, double(wish.fps)));
+    }
+    return say(LogLevel::info, fmt::format("{}: {} pictures in {:.1f} s", shot.path.string(), shot.cameras.size(),
+                                           now_seconds() - start));
 }
 
-void start(PanelContext& e, const Wish& wish) {
-    e.files().last_picture = wish.path;
-    const fs::path path(e.session().path());
-    std::vector<Shot> list = shots(e, wish);
-    const bool one = list.size() == 1;
-    const std::string title =
-        one ? "Final picture " + list[0].path.filename().string() : fmt::format("{} final pictures", list.size());
-    e.files().jobs.start({.title = title, .can_finish_early = one, .pauses_picture = true},
-                         [wish, list = std::move(list), &registry = e.registry(), &log = e.log(),
-                          options = e.options().renderer, name = path.filename().string()](BackgroundJob& job) -> Done {
-                             RendererPointer renderer;
-                             std::vector<Done> all;
-                             for (std::size_t i = 0; i < list.size() && !job.cancelled(); ++i) {
-                                 const std::string& called = list.size() > 1 ? list[i].name : "";
-                                 auto done = render(Part(job, i, list.size(), called), registry, log, options, renderer,
-                                                    list[i], wish, name);
-                                 all.push_back(done ? std::move(*done) : say(LogLevel::error, done.error().message));
-                             }
-                             return [all = std::move(all)](PanelContext& editor) {
-                                 for (const Done& done : all)
-                                     done(editor);
-                             };
-                         });
+// What remains to be done for a shot; none = it was cancelled.
+Result<Done> render_shot(Progress& job, const Renders& with, RendererPointer& renderer, const Shot& shot,
+                         const FinalWish& wish) {
+    if (!shot.cameras.empty()) return render_move(job, with, renderer, shot, wish);
+    job.frame(0, 1);
+    RESTAGE_CHECK(view::check_picture_path(shot.path.string()));
+    RESTAGE_TRY(const auto finished, render(job, with, renderer, shot.scene, wish));
+    return finished ? write(finished, shot.path) : Done();
+}
+
+// The job's thread: all shots in the order that the batch has by then.
+Done render_all(BackgroundJob& job, FinalBatch& batch, const std::vector<Shot>& shots, const FinalWish& wish,
+                const Renders& with) {
+    RendererPointer renderer;
+    std::vector<Done> all;
+    const auto wanted = [&]() -> std::optional<std::size_t> {
+        job.wait_while_paused();
+        return job.cancelled() ? std::nullopt : batch.next();
+    };
+    while (const auto index = wanted()) {
+        const Shot& shot = shots[*index];
+        Progress progress(job, batch, shots.size() > 1 ? batch.count() + shot.name + ": " : "");
+        auto done = render_shot(progress, with, renderer, shot, wish);
+        const bool cancelled = done && !*done;
+        batch.finish(cancelled ? FinalBatch::State::cancelled
+                     : done    ? FinalBatch::State::done
+                               : FinalBatch::State::failed);
+        if (cancelled)
+            all.push_back(say(LogLevel::info, shot.path.filename().string() + " was cancelled"));
+        else
+            all.push_back(done ? std::move(*done) : say(LogLevel::error, done.error().message));
+    }
+    return [all = std::move(all)](PanelContext& editor) {
+        for (const Done& done : all)
+            done(editor);
+    };
 }
 
 } // namespace
 
-void final_render_dialog(PanelContext& e) {
-    auto wish = std::make_shared<Wish>();
-    wish->samples = std::max(e.scene().settings.value.samples, 1u);
-    wish->denoise = !e.registry().denoisers().empty();
-    wish->denoiser = e.preferences.denoiser;
-    e.show_modal("Final picture", [wish](PanelContext& editor) {
-        const scene::Film& film = editor.scene().film.value;
-        dialog_width(360);
-        form_row("Size", "The picture's size: change it in the Scene panel, under Picture");
-        ImGui::Text("%u × %u pixels", film.width, film.height);
-        if (editor.views.now()) {
-            form_row("From", "The viewpoint: the current view, or the scene's camera");
-            if (ImGui::RadioButton("View", wish->from_view)) wish->from_view = true;
-            editor.mark("final.view");
-            ImGui::SameLine();
-            if (ImGui::RadioButton("Camera", !wish->from_view)) wish->from_view = false;
-            editor.mark("final.camera");
-        }
-        const std::size_t looks = editor.session().looks().list.size(), cameras = editor.scene().cameras.live();
-        if (looks > 0) {
-            form_row("Every look", "One picture of each look, with its name in the file's");
-            ImGui::Checkbox("##looks", &wish->all_looks);
-            editor.mark("final.looks");
-        }
-        if (cameras > 1) {
-            form_row("Every camera", "One picture from each camera and bookmark, with its name in the file's");
-            ImGui::Checkbox("##cameras", &wish->all_cameras);
-            editor.mark("final.cameras");
-        }
-        int samples = int(wish->samples);
-        form_row("Samples", "Light paths per pixel: twice as many take twice the time and leave 0.7 of the noise");
-        if (ImGui::DragInt("##samples", &samples, 1, 1, 1 << 20, "%d a pixel", ImGuiSliderFlags_AlwaysClamp))
-            wish->samples = std::uint32_t(samples);
-        editor.mark("final.samples");
-        float percent = wish->error * 100;
-        form_row("Stop at error", "Stop at this noise: the estimated relative error before denoising. 0 = no target");
-        if (ImGui::DragFloat("##error", &percent, 0.05f, 0, 100, percent > 0 ? "%.2f %%" : "No target"))
-            wish->error = percent / 100;
-        editor.mark("final.error");
-        form_row("Denoise", "Removes the remaining noise, in high quality; in an EXR the raw picture is kept as well");
-        ImGui::BeginDisabled(editor.registry().denoisers().empty());
-        ImGui::Checkbox("##denoise", &wish->denoise);
-        editor.mark("final.denoise");
-        ImGui::EndDisabled();
-        empty_note("It renders in the background while you continue editing; the live picture is paused meanwhile.");
-        ImGui::Spacing();
-        bool stay = true;
-        if (ImGui::Button("Choose where...")) {
-            stay = false;
-            const fs::path path(editor.session().path());
-            const fs::path& last = editor.files().last_picture;
-            browse(editor, {.title = "Final picture as",
-                            .save = true,
-                            .filters = {{"Pictures", {"exr", "png", "hdr", "pfm"}}, {"All files", {}}},
-                            .start = !last.empty()  ? last.parent_path()
-                                     : path.empty() ? fs::path()
-                                                    : path.parent_path(),
-                            .name = (path.empty() ? "untitled" : path.stem().string()) + ".exr",
-                            .extension = ".exr",
-                            .done = [wish](PanelContext& ed, const fs::path& place) {
-                                wish->path = place;
-                                start(ed, *wish);
-                            }});
-        }
-        editor.mark("final.choose");
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) stay = false;
-        editor.mark("final.cancel");
-        return stay;
+void start_final_pictures(PanelContext& e, const FinalWish& wish) {
+    if (wish.move == CameraMove::none && view::is_video_path(wish.path))
+        return e.notices.add(LogLevel::error, "A video needs a camera that moves: choose one under Camera move");
+    if (view::is_video_path(wish.path)) // before anything is rendered
+        if (const auto possible = view::VideoFrames::create(); !possible)
+            return e.notices.add(LogLevel::error, possible.error().message);
+    e.files().last_picture = wish.path;
+    const fs::path path(e.session().path());
+    auto shots = std::make_shared<const std::vector<Shot>>(shots_of(e, wish));
+    std::vector<std::string> names;
+    for (const Shot& shot : *shots)
+        names.push_back(shot.name);
+    const auto batch = std::make_shared<FinalBatch>(names);
+    const bool one = shots->size() == 1, still = wish.move == CameraMove::none;
+    BackgroundJobs::Options options{.title = one ? "Final picture " + (*shots)[0].path.filename().string()
+                                                 : fmt::format("{} final pictures", shots->size()),
+                                    .can_finish_early = one && still,
+                                    .pauses_picture = true,
+                                    .can_pause = true};
+    if (!one) options.details = [batch, still](PanelContext& editor) { draw_batch(editor, *batch, still); };
+    const Renders with{e.registry(), e.log(), e.options().renderer, path.filename().string()};
+    e.files().jobs.start(std::move(options), [wish, shots, batch, with](BackgroundJob& job) {
+        return render_all(job, *batch, *shots, wish, with);
     });
 }
 

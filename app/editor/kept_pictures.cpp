@@ -98,7 +98,7 @@ void draw_comparison(PanelContext& e, ImVec2 corner, ImVec2 size) {
     draw->PopClipRect();
     if (flipped) return;
     const bool held = ImGui::IsMouseHoveringRect({x - 6 * scale, corner.y}, {x + 6 * scale, end.y});
-    draw->AddLine({x, corner.y}, {x, end.y}, ImGui::GetColorU32(held ? colors::hover : colors::accent),
+    draw->AddLine({x, corner.y}, {x, end.y}, ImGui::GetColorU32(held ? colors::pointed : colors::selected),
                   std::max(1.f, 2 * scale));
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos({x - 6 * scale, corner.y});

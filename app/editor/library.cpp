@@ -98,6 +98,7 @@ std::optional<LibraryItem> library_item(DocumentContext& e, std::string_view key
         const auto found = std::ranges::find(list, key, &LibraryItem::key);
         return found == list.end() ? std::nullopt : std::optional(*found);
     };
+    if (key.starts_with("file:")) return in(e.panel_state->library.borrowed);
     return key.starts_with("preset:") ? in(presets_of(e)) : in(materials_of(e));
 }
 
@@ -197,9 +198,12 @@ void preview_material_drop(PanelContext& e, const std::string& key, ImVec2 scree
 void drop_material(PanelContext& e, const std::string& key, ImVec2 screen) {
     const auto item = library_item(e, key);
     const InstanceId on = target_at(e, e.viewport.film_point(screen));
-    if (!item || !on) return;
-    ask_scope(e, {on}, item->name, [item](SelectContext& editor, const MaterialScope& scope) {
-        with_images(editor, *item, [&editor, scope](PanelUi&, const LibraryItem& ready) {
+    if (item && on) drop_material(e, *item, on);
+}
+
+void drop_material(PanelContext& e, const LibraryItem& item, InstanceId on) {
+    ask_scope(e, {on}, item.name, [item](SelectContext& editor, const MaterialScope& scope) {
+        with_images(editor, item, [&editor, scope](PanelUi&, const LibraryItem& ready) {
             editor.edit(giving(ready, objects_in(editor.scene(), scope)));
         });
     });

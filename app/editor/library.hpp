@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Library: materials to choose from: presets of Restage (share/restage/materials), of plugins (a folder `presets`
-// beside plugin.json) and of the user (`materials` in the configuration folder), and the materials of the open scene.
+// beside plugin.json) and of the user (`materials` in the configuration folder), and the materials of the open scene
+// and of other scenes' files.
 #pragma once
 
 #include "contexts.hpp"
 #include "document/preset.hpp"
 #include "shown_scene.hpp"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,9 +19,9 @@
 namespace restage::editor {
 
 struct LibraryItem {
-    std::string key; // "material:17" of the scene; "preset:/folder/gold.json"
+    std::string key; // "material:17" of the scene; "preset:/folder/gold.json"; "file:/folder/room.pbrt#17"
     std::string name, category;
-    std::string from; // "Restage", "yours", a plugin's name, "this scene"
+    std::string from; // "Restage", "yours", a plugin's name, "this scene", "room.pbrt"
     std::shared_ptr<const document::Preset> preset; // null: of the scene
     scene::Id<scene::Material> material; // of the scene
 };
@@ -30,6 +32,7 @@ struct LibraryState { // of the panel
     bool loaded = false;
     std::uint64_t plugins = 0; // plugin::Registry::version, when it was loaded
     std::vector<LibraryItem> presets; // by category and name
+    std::vector<LibraryItem> borrowed; // of other scenes' files, since the start
     std::string search, category; // "" = all
 
     // What hovering shows on the selection.
@@ -63,12 +66,21 @@ void follow_hover(SelectContext& editor, const LibraryItem* under_mouse);
 // What the picture shows besides the document now.
 Trial current_trial(const LibraryState& state);
 
+// The materials of a scene's file or project, with their textures, for the library until the program ends: read in the
+// background. Reading a file again replaces them.
+void borrow_materials(DocumentContext& editor, const std::filesystem::path& file);
+void ask_borrow_materials(EditContext& editor); // which file
+
+// A preset's file from outside: goes to the object there; without one, a copy goes into the user's presets.
+void drop_preset(PanelContext& editor, const std::filesystem::path& file, InstanceId on);
+
 // A dialog that writes the material into the user's folder, with its textures.
 void ask_save_preset(EditContext& editor, scene::Id<scene::Material> material);
 
 // While a ball is dragged over this point of the window: outlines the object there, and says what a drop does.
 void preview_material_drop(PanelContext& editor, const std::string& key, ImVec2 screen);
 void drop_material(PanelContext& editor, const std::string& key, ImVec2 screen);
+void drop_material(PanelContext& editor, const LibraryItem& item, InstanceId on);
 // The payload of drags: a key.
 inline constexpr const char* material_payload = "restage.material";
 

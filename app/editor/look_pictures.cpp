@@ -57,7 +57,8 @@ LookPictures::Shown LookPictures::picture(const SmallPictures::Maker& maker, con
         scene.film.value.crop = {0, 1, 0, 1};
         renders_.ask(maker, {.number = one.number, .scene = std::move(scene), .samples = samples});
     }
-    if (one.image.width == 0) return {.failed = one.failed};
+    const auto place = renders_.place(one.number);
+    if (one.image.width == 0) return {.failed = one.failed, .place = place};
     view::DisplaySettings settings = display;
     settings.layer = view::picture_layer;
     settings.scale = one.exposure;
@@ -73,7 +74,8 @@ LookPictures::Shown LookPictures::picture(const SmallPictures::Maker& maker, con
     return {.texture = one.texture.get(),
             .size = {float(one.image.width), float(one.image.height)},
             .stale = !(one.made == of),
-            .failed = one.failed};
+            .failed = one.failed,
+            .place = place};
 }
 
 void LookPictures::poll() {

@@ -27,6 +27,7 @@ class LookPictures {
         ImVec2 size{0, 0}; // [pixel]
         bool stale = false; // it will be replaced
         bool failed = false; // it could not be rendered: the log says why
+        std::optional<SmallPictures::Place> place; // while it is awaited
     };
     // [main] As it was last rendered; requested if it is not of this state.
     Shown picture(const SmallPictures::Maker& maker, const scene::Scene& now, const document::Look& look,

@@ -2,10 +2,8 @@
 #include "material_balls.hpp"
 
 #include "base/file.hpp"
-#include "base/thread_priority.hpp"
 #include "io/image_file.hpp"
 #include "render/material_types.hpp"
-#include "render/renderer.hpp"
 #include "scene/bounds.hpp"
 #include "scene/edits.hpp"
 #include "scene/same_material.hpp"
@@ -129,20 +127,14 @@ scene::Scene ball_scene(const scene::Scene& scene, scene::Id<scene::Material> id
     return ball;
 }
 
-MaterialBalls::~MaterialBalls() {
-    {
-        const std::lock_guard lock(mutex_);
-        stop_ = true;
-    }
-    more_.notify_all();
-    if (thread_.joinable()) thread_.join();
-}
-
 void MaterialBalls::forget() {
     std::erase_if(balls_, [](const auto& one) { return one.second.made.document != 0; });
     ++document_;
-    const std::lock_guard lock(mutex_);
-    std::erase_if(jobs_, [](const Job& job) { return job.made.document != 0; });
+    std::erase_if(asked_, [&](const Asked& asked) {
+        if (asked.made.document == 0) return false;
+        renders_.drop(asked.number);
+        return true;
+    });
 }
 
 const Texture* MaterialBalls::ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id) {
@@ -168,84 +160,55 @@ const Texture* MaterialBalls::request(const Maker& maker, const std::string& key
     Ball& ball = balls_[key];
     if (ball.made != now) {
         ball.made = now;
-        {
-            const std::lock_guard lock(mutex_);
-            std::erase_if(jobs_, [&](const Job& job) { return job.key == key; });
-            jobs_.push_front({.key = key, .made = now, .preset = make()});
-            while (jobs_.size() > most_waiting) {
-                balls_[jobs_.back().key].made = {};
-                jobs_.pop_back();
-            }
+        std::erase_if(asked_, [&](const Asked& asked) {
+            if (asked.key != key) return false;
+            renders_.drop(asked.number);
+            return true;
+        });
+        asked_.push_front(
+            {.number = next_++, .key = key, .made = now, .pixels = std::make_shared<Pixels::element_type>()});
+        SmallPictures::Job wanted = job(maker, make(), now.document == 0, asked_.front().pixels);
+        wanted.number = asked_.front().number;
+        renders_.ask(maker, std::move(wanted));
+        while (asked_.size() > most_waiting) {
+            renders_.drop(asked_.back().number);
+            balls_[asked_.back().key].made = {};
+            asked_.pop_back();
         }
-        if (!thread_.joinable()) thread_ = std::thread([this, maker] { work(maker); });
-        more_.notify_all();
     }
     return ball.texture && ball.texture->ready() ? ball.texture.get() : nullptr;
 }
 
-void MaterialBalls::poll() {
-    std::deque<Finished> finished;
-    {
-        const std::lock_guard lock(mutex_);
-        finished.swap(finished_);
-    }
-    for (const Finished& one : finished) {
-        if (one.made.document != 0 && one.made.document != document_) continue;
-        auto& texture = balls_[one.key].texture;
-        if (!texture) texture = pool_.take();
-        texture->set(side, side, one.rgba);
-    }
+SmallPictures::Job MaterialBalls::job(const Maker& maker, document::Preset preset, bool kept, const Pixels& pixels) {
+    SmallPictures::Job job{.scene = {}, .samples = samples, .next = true};
+    const auto file = std::make_shared<std::filesystem::path>(); // where it is kept; "" = nowhere
+    job.prepare = [maker, kept, file, pixels, preset = std::move(preset)](scene::Scene& scene) mutable -> Result<bool> {
+        if (kept) {
+            RESTAGE_CHECK(document::read_images(preset));
+            *file = kept_at(maker, preset);
+            if (*pixels = read_kept(*file); !pixels->empty()) return false;
+        }
+        scene = ball_scene(preset.parts, preset.material);
+        return true;
+    };
+    job.done = [this, file, pixels](const render::FilmImage& image) {
+        view::to_display(image, {}, *pixels);
+        ++rendered_;
+        keep(*file, *pixels);
+    };
+    return job;
 }
 
-void MaterialBalls::work(Maker maker) {
-    lower_thread_priority(10);
-    maker.options.stand_ins = false;
-    maker.options.threads = 1; // the picture needs the other threads
-    std::unique_ptr<render::Renderer> renderer;
-    bool said = false;
-    std::unique_lock lock(mutex_);
-    while (true) {
-        more_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
-        if (stop_) return;
-        Job job = std::move(jobs_.front());
-        jobs_.pop_front();
-        lock.unlock();
-        std::vector<std::uint32_t> rgba;
-        const auto render = [&]() -> Result<void> {
-            std::filesystem::path kept;
-            if (job.made.document == 0) {
-                RESTAGE_CHECK(document::read_images(job.preset));
-                kept = kept_at(maker, job.preset);
-                if (rgba = read_kept(kept); !rgba.empty()) return {};
-            }
-            if (!renderer) {
-                RESTAGE_TRY(renderer, render::Renderer::create(maker.options, render::material_lookup(maker.registry),
-                                                               maker.log));
-            }
-            renderer->forget_scene(); // two balls of one scene have the same versions
-            RESTAGE_CHECK(renderer->sync(ball_scene(job.preset.parts, job.preset.material)));
-            bool stopped = false;
-            RESTAGE_CHECK(renderer->trace(samples, [&] {
-                const std::lock_guard guard(mutex_);
-                stopped = stop_;
-                return !stopped;
-            }));
-            if (stopped) return {};
-            view::to_display(renderer->image(), {}, rgba);
-            ++rendered_;
-            if (rgba.size() == std::size_t(side) * side) keep(kept, rgba);
-            return {};
-        };
-        if (const auto done = render(); !done) {
-            renderer.reset(); // its device may be lost
-            if (!std::exchange(said, true))
-                maker.log.warning("a ball of a material was not rendered: " + done.error().message);
+void MaterialBalls::poll() {
+    for (const SmallPictures::Made& made : renders_.take()) {
+        const auto found = std::ranges::find(asked_, made.number, &Asked::number);
+        if (found == asked_.end()) continue; // forgotten, or asked for again
+        if (const Asked& one = *found; one.pixels->size() == std::size_t(side) * side) {
+            auto& texture = balls_[one.key].texture;
+            if (!texture) texture = pool_.take();
+            texture->set(side, side, *one.pixels);
         }
-        lock.lock();
-        if (stop_) return;
-        if (rgba.size() != std::size_t(side) * side) continue;
-        finished_.push_back({.key = job.key, .made = job.made, .rgba = std::move(rgba)});
-        if (wake_) wake_();
+        asked_.erase(found);
     }
 }
 

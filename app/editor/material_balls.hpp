@@ -3,40 +3,28 @@
 // on first use by a separate renderer on a low-priority thread. Balls of presets are kept on disk.
 #pragma once
 
-#include "base/log.hpp"
 #include "document/preset.hpp"
-#include "plugin/registry.hpp"
-#include "render/renderer_options.hpp"
 #include "scene/scene.hpp"
+#include "small_pictures.hpp"
 #include "texture_pool.hpp"
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 namespace restage::editor {
 
 class MaterialBalls {
   public:
-    explicit MaterialBalls(std::function<void()> wake) : wake_(std::move(wake)) {}
-    ~MaterialBalls();
-    MaterialBalls(const MaterialBalls&) = delete;
-    MaterialBalls& operator=(const MaterialBalls&) = delete;
+    explicit MaterialBalls(std::function<void()> wake) : renders_(std::move(wake), "a ball of a material") {}
 
-    // The renderer's host, and the log for failures. Both outlive this.
-    struct Maker {
-        const plugin::Registry& registry;
-        Log& log;
-        render::RendererOptions options;
-    };
+    using Maker = SmallPictures::Maker;
     // [main] The ball as it was last rendered, null until there is one; one that is older than the scene's materials
     // and textures is requested again. The latest request is rendered first.
     const Texture* ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id);
@@ -58,31 +46,24 @@ class MaterialBalls {
         Made made; // the latest request
         TexturePool::Held texture;
     };
-    struct Job {
+    using Pixels = std::shared_ptr<std::vector<std::uint32_t>>; // red in the lowest byte
+    struct Asked { // and not made yet
+        std::uint64_t number = 0;
         std::string key;
         Made made;
-        document::Preset preset; // of a scene's material: the whole scene is its parts
-    };
-    struct Finished {
-        std::string key;
-        Made made;
-        std::vector<std::uint32_t> rgba;
+        Pixels pixels; // [worker] until it is made
     };
     const Texture* request(const Maker& maker, const std::string& key, const Made& now,
                            const std::function<document::Preset()>& make);
-    void work(Maker maker);
+    SmallPictures::Job job(const Maker& maker, document::Preset preset, bool kept, const Pixels& pixels);
 
-    std::function<void()> wake_;
     TexturePool pool_;
     std::map<std::string, Ball> balls_; // "17": of the scene; "/folder/gold.json"
     std::uint64_t document_ = 1;
     std::atomic<std::size_t> rendered_ = 0;
-    std::mutex mutex_;
-    std::condition_variable more_;
-    std::deque<Job> jobs_;
-    std::deque<Finished> finished_;
-    bool stop_ = false;
-    std::thread thread_;
+    std::deque<Asked> asked_; // the latest first
+    std::uint64_t next_ = 1;
+    SmallPictures renders_; // destroyed first: its thread uses what is above
 };
 
 // A ball of that material in a neutral studio, without the rest of the scene. [any]

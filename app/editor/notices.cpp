@@ -65,12 +65,11 @@ void Notices::draw(float right, float bottom) {
         const ImVec4 stripe = line.level == LogLevel::error     ? colors::error
                               : line.level == LogLevel::warning ? colors::warning
                                                                 : colors::good;
-        draw->AddRectFilled(corner, {right - pad, bottom}, ImGui::GetColorU32({0.1f, 0.1f, 0.11f, 0.92f * alpha}),
+        draw->AddRectFilled(corner, {right - pad, bottom}, faded(colors::over_picture, colors::over_picture.w * alpha),
                             4 * scale);
-        draw->AddRectFilled(corner, {corner.x + 3 * scale, bottom},
-                            ImGui::GetColorU32({stripe.x, stripe.y, stripe.z, alpha}), 2 * scale);
+        draw->AddRectFilled(corner, {corner.x + 3 * scale, bottom}, faded(stripe, alpha), 2 * scale);
         draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + pad, corner.y + pad},
-                      ImGui::GetColorU32({0.92f, 0.92f, 0.94f, alpha}), line.text.c_str(), nullptr, width);
+                      faded(ImGui::GetStyleColorVec4(ImGuiCol_Text), alpha), line.text.c_str(), nullptr, width);
         bottom = corner.y - pad;
     }
 }

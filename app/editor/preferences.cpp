@@ -25,6 +25,7 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     if (const auto whole = j.find("whole_things"); whole != j.end() && whole->is_boolean())
         preferences.whole_things = *whole;
     if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;
+    if (const auto theme = j.find("theme"); theme != j.end() && *theme == "light") preferences.theme = Theme::light;
     const auto step = [&](const char* key, float& value, float most) {
         if (const auto found = j.find(key); found != j.end() && found->is_number())
             if (const double given = *found; given > 0 && given <= double(most)) value = float(given);
@@ -43,6 +44,7 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
     const nlohmann::json j{{"hint_seen", preferences.hint_seen},
                            {"whole_things", preferences.whole_things},
                            {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
+                           {"theme", preferences.theme == Theme::light ? "light" : "dark"},
                            {"snap_move", preferences.snap_move},
                            {"snap_angle", preferences.snap_angle},
                            {"snap_scale", preferences.snap_scale},

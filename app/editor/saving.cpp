@@ -20,8 +20,6 @@ namespace restage::editor {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 // First all files that can be opened, then each importer's, then all files.
 std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool projects) {
     std::vector<FileFilter> filters;
@@ -38,6 +36,8 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
     filters.push_back({"All files", {}});
     return filters;
 }
+
+namespace {
 
 std::string project_name(const PanelContext& e) {
     const fs::path path(e.session().path());

@@ -4,17 +4,25 @@
 
 #include <functional>
 #include <string>
+#include <vector>
+
+namespace restage::plugin {
+class Registry;
+}
 
 namespace restage::editor {
 
 class Editor;
 class PanelContext;
+struct FileFilter; // file_browser.hpp
 using Then = std::function<void(Editor&)>;
 
 // Calls it immediately if nothing is unsaved; else after Save or Discard, and never after Cancel. `doing`: "opening
 // another scene".
 void ask_unsaved(Editor& editor, const char* doing, Then then);
 
+// What can be opened: scenes of the importers, and projects.
+std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool projects);
 void new_scene(Editor& editor); // a studio: a floor, a neutral sky, a camera
 void open_dialog(Editor& editor);
 void insert_dialog(Editor& editor);

@@ -143,7 +143,7 @@ void Viewport::update_textures(PanelContext& e) {
         if (id.value < mark.size()) mark[id.value] = 2;
     outlined_ = std::move(key);
     if (view::to_outlines(image, mark, frame->divider > 1 ? 1 : 2,
-                          {ImGui::GetColorU32(colors::hover), ImGui::GetColorU32(colors::accent)}, pixels_))
+                          {ImGui::GetColorU32(colors::pointed), ImGui::GetColorU32(colors::selected)}, pixels_))
         outline_.set(image.width, image.height, pixels_);
     else
         outline_.hide();
@@ -252,7 +252,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (boxing_) {
         ImDrawList* draw = ImGui::GetWindowDrawList();
         draw->AddRectFilled(press_, io.MousePos, ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.12f}));
-        draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::accent));
+        draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::selected));
         ImGui::SetTooltip(io.MousePos.x >= press_.x
                               ? "Objects entirely inside the box (to the left: all it touches)"
                               : "All that the box touches (to the right: only objects entirely inside)");

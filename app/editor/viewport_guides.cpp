@@ -25,8 +25,6 @@ namespace {
 constexpr int half_lines = 16; // of the grid, to each side of its centre
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-ImU32 faded(const ImVec4& color, float alpha) { return ImGui::GetColorU32({color.x, color.y, color.z, alpha}); }
-
 // The world axis that it is along.
 int axis_of(const glm::dvec3& direction) {
     return std::abs(direction.x) > 0.5 ? 0 : std::abs(direction.y) > 0.5 ? 1 : 2;

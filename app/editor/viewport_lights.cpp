@@ -72,9 +72,9 @@ void Viewport::draw_lights(PanelContext& e) {
         if (!scene::light_row(light.kind).placed) return;
         const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
         if (!c) return;
-        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::accent
-                                               : light.hidden            ? colors::dim
-                                                                         : colors::warning);
+        const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::selected
+                                               : light.hidden            ? colors::lamp_off
+                                                                         : colors::lamp);
         draw->AddCircle(*c, r, color, 0, 2);
         for (int i = 0; i < 8; ++i) {
             const float a = float(i) * 0.785398f;
@@ -103,7 +103,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
             line(cone.rim(radius(angle), 2 * pi * double(i) / rim_points),
                  cone.rim(radius(angle), 2 * pi * double(i + 1) / rim_points), color);
     };
-    const ImU32 bright = ImGui::GetColorU32(colors::accent), dim = ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.45f});
+    const ImU32 bright = ImGui::GetColorU32(colors::selected), dim = faded(colors::selected, 0.45f);
     rim(double(light.cone_angle), bright);
     if (light.cone_delta > 0)
         rim(std::max(0.0, double(light.cone_angle - light.cone_delta)), dim); // where it begins to fade
@@ -124,7 +124,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     ImGui::InvisibleButton("cone", {2 * half, 2 * half});
     const bool over = ImGui::IsItemHovered() || ImGui::IsItemActive();
     draw->AddCircleFilled(*handle, half * (over ? 0.8f : 0.6f),
-                          ImGui::GetColorU32(over ? colors::hover : colors::accent));
+                          ImGui::GetColorU32(over ? colors::pointed : colors::selected));
     e.mark("light.cone_handle");
     if (over) ImGui::SetTooltip("Cone %.1f°", double(light.cone_angle));
     if (!ImGui::IsItemActive()) {

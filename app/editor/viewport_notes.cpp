@@ -150,8 +150,8 @@ void Viewport::draw_status(PanelContext& e) {
         const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
         const ImVec2 a(corner.x + 8 * scale, end.y - extent.y - 10 * scale);
         draw->AddRectFilled({a.x - 4 * scale, a.y - 3 * scale},
-                            {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale}, IM_COL32(16, 16, 18, 180),
-                            3 * scale);
+                            {a.x + extent.x + 4 * scale, a.y + extent.y + 3 * scale},
+                            ImGui::GetColorU32(colors::over_picture), 3 * scale);
         draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a,
                       ImGui::GetColorU32(status.state == view::ViewState::failed ? colors::error : colors::dim),
                       text.c_str(), nullptr, wrap);
@@ -221,8 +221,8 @@ void Viewport::draw_hint(PanelContext& e) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 a(corner.x + (size.x - extent.x) / 2, corner.y + 3 * pad);
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled({a.x - pad, a.y - pad}, {a.x + extent.x + pad, a.y + extent.y + pad}, IM_COL32(16, 16, 18, 215),
-                        4 * scale);
+    draw->AddRectFilled({a.x - pad, a.y - pad}, {a.x + extent.x + pad, a.y + extent.y + pad},
+                        ImGui::GetColorU32(colors::over_picture), 4 * scale);
     draw->AddRectFilled({a.x - pad, a.y - pad}, {a.x - pad + 3 * scale, a.y + extent.y + pad},
                         ImGui::GetColorU32(colors::accent), 2 * scale);
     draw->AddText(ImGui::GetFont(), ImGui::GetFontSize(), a, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr,

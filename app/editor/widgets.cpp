@@ -139,7 +139,7 @@ bool icon_button(const char* id, Icon icon, bool on, const char* tooltip) {
     const bool hovered = ImGui::IsItemHovered();
     const ImU32 color = ImGui::GetColorU32(hovered ? colors::hover
                                            : on    ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
-                                                   : ImVec4(0.4f, 0.4f, 0.42f, 1));
+                                                   : colors::off);
     draw_icon(ImGui::GetWindowDrawList(), icon, ImGui::GetItemRectMin(), size, color);
     tip(tooltip);
     return pressed;

@@ -485,6 +485,47 @@ def test_the_looks_of_a_project_are_listed_and_rendered(tmp_path):
     assert not (tmp_path / "x.pfm").exists()
 
 
+def test_a_camera_path_goes_through_all_cameras(tmp_path):
+    (tmp_path / "two.pbrt").write_text(DARK)
+    some = ["--spp", 1, "--size", "16x16", "--studio"]
+    stills = []
+    for camera in ("1", "2"):
+        assert restage("render", tmp_path / "two.pbrt", "-o", tmp_path / "still.pfm", "--camera", camera, *some).returncode == 0
+        stills.append((tmp_path / "still.pfm").read_bytes())
+    done = restage("render", tmp_path / "two.pbrt", "-o", tmp_path / "way.#.pfm", "--camera-path", 3, *some)
+    assert done.returncode == 0, done.stderr
+    way = [(tmp_path / f"way.{n}.pfm").read_bytes() for n in (1, 2, 3)]
+    assert [way[0], way[2]] == stills and way[1] not in stills
+    one = restage("render", CORNELL, "-o", tmp_path / "x.#.pfm", "--camera-path", 3, *some)
+    assert one.returncode == 1 and "--camera-path: the scene has one camera; a path needs two or more" in one.stderr
+    both = restage("render", CORNELL, "-o", tmp_path / "x.#.pfm", "--camera-path", 3, "--turntable", 2, *some)
+    assert both.returncode != 0 and "--turntable" in both.stderr
+
+
+FFMPEG = """#!/bin/sh
+for a in "$@"; do last="$a"; done
+while [ "$1" != "-i" ]; do [ "$1" = "-framerate" ] && rate=$2; shift; done
+echo "$rate $(ls "$(dirname "$2")" | wc -l)" > "$last"
+"""
+
+
+def test_a_video_is_made_by_ffmpeg(tmp_path, monkeypatch):
+    some = ["--spp", 1, "--size", "16x16"]
+    monkeypatch.setenv("PATH", str(tmp_path))
+    none = restage("render", CORNELL, "-o", tmp_path / "turn.mp4", "--turntable", 3, *some)
+    assert none.returncode == 1 and "videos are made by ffmpeg, which is not on PATH" in none.stderr
+    monkeypatch.undo()
+    (tmp_path / "ffmpeg").write_text(FFMPEG)  # a stand-in that notes what it is given
+    (tmp_path / "ffmpeg").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    still = restage("render", CORNELL, "-o", tmp_path / "still.mp4", *some)
+    assert still.returncode == 1 and "a video needs --turntable or --camera-path" in still.stderr
+    done = restage("render", CORNELL, "-o", tmp_path / "turn.mp4", "--turntable", 3, "--fps", 12, *some)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "turn.mp4").read_text() == "12 3\n"
+    assert "turn.mp4 was written" in done.stderr
+
+
 def test_a_turntable_turns_the_camera_once_around_the_scene(tmp_path):
     scene = tmp_path / "two.pbrt"  # a red ball at the left of the picture, a blue one at the right
     ball = 'AttributeBegin Translate {} 0 0 AreaLightSource "diffuse" "rgb L" [{}] Shape "sphere" "float radius" 0.5 AttributeEnd\n'

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A screenshot of every panel and dialog of the editor, in the states that matter, for visual inspection:
 
-    RESTAGE_BIN=build/bin/restage build/venv/bin/python tests/ui/screens.py OUT [--size 1600x1000] [--scale 2] [STATE ...]
+    RESTAGE_BIN=build/bin/restage build/venv/bin/python tests/ui/screens.py OUT [--size 1600x1000] [--scale 2] [--theme light] [STATE ...]
 
 Without states all of them; `--list` names them. Widgets are found by their marks (desk.py), so it is a test of those, too:
 it exits with 1 if a state could not be reached."""
 import argparse
+import json
 import os
 import pathlib
 import shutil
@@ -47,7 +48,8 @@ def state(function):
 
 
 class Screens:
-    def __init__(self, desk, binary, out, size, scale, jpeg, folder):
+    def __init__(self, desk, binary, out, size, scale, theme, jpeg, folder):
+        self.theme = theme
         self.desk, self.binary, self.out, self.size, self.scale = desk, binary, out, size, scale
         self.folder = pathlib.Path(folder)
         self.jpeg = jpeg
@@ -64,6 +66,9 @@ class Screens:
         place = self.folder / config
         if not recover:  # recovery files of editors killed here
             shutil.rmtree(place / "recovery", ignore_errors=True)
+        if not (place / "preferences.json").exists():
+            place.mkdir(parents=True, exist_ok=True)
+            (place / "preferences.json").write_text(json.dumps({"hint_seen": not hint, "theme": self.theme}))
         self.editor = Editor(self.desk, self.binary, "--scale", self.scale, *arguments, config=place,
                              probe=self.folder / "probe.json", size=self.size, hint=hint)
         self.opened = key
@@ -637,6 +642,45 @@ def final_picture_goes_on(s):
 
 
 @state
+def final_pictures_of_a_moving_camera(s):
+    final_picture(s)
+    s.editor.click("final.move")
+    s.editor.click("final.move.turntable")
+    s.rest()
+
+
+@state
+def final_pictures_in_a_batch(s):
+    s.stop()
+    s.start(DEMO, config="batch")
+    for key in ("b", "b"):
+        s.editor.key(key)
+        time.sleep(0.5)
+    s.dialog("ctrl+r", "Final picture")
+    s.editor.click("final.cameras")
+    s.editor.click("final.choose")
+    s.editor.wait(lambda t: t["modal"] == "Final picture as", "the browser")
+    s.editor.key("ctrl+a")
+    s.editor.type(str(s.folder / "batch.png"))
+    s.editor.key("Return")
+    s.editor.wait(lambda t: "batch.enough" in t["marks"], "the list", 120)
+    s.rest()
+
+
+@state
+def materials_of_a_file(s):
+    s.start(ROOT / "scenes/cornell/cornell.pbrt", config="borrow")
+    s.tab("Materials")
+    s.editor.click("materials.borrow")
+    s.editor.wait(lambda t: t["modal"] == "Materials of a file", "the browser")
+    s.editor.key("ctrl+a")
+    s.editor.type(str(DEMO))
+    s.editor.key("Return")
+    s.editor.wait(lambda t: "materials.Oak" in t["marks"], "the materials", 120)
+    balls(s, 4)
+
+
+@state
 def pixel_values(s):
     s.stop()
     s.start(DEMO)
@@ -719,6 +763,7 @@ def main():
     parse.add_argument("states", nargs="*")
     parse.add_argument("--size", default="1280x720")
     parse.add_argument("--scale", type=float, default=1)
+    parse.add_argument("--theme", choices=["dark", "light"], default="dark")
     parse.add_argument("--jpeg", action="store_true", help="for docs/images/editor: named with dashes")
     parse.add_argument("--list", action="store_true")
     given = parse.parse_intermixed_args()
@@ -732,7 +777,7 @@ def main():
     given.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         desk = Desk(pathlib.Path(folder) / "desk", size)
-        screens = Screens(desk, binary, given.out, size, given.scale, given.jpeg, folder)
+        screens = Screens(desk, binary, given.out, size, given.scale, given.theme, given.jpeg, folder)
         try:
             screens.run([name for name in states if not given.states or name in given.states])
         finally:

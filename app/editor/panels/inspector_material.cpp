@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -105,7 +106,10 @@ bool type_row(DocumentContext& e, const TypeUse& use, const std::string& current
         uses += (uses.empty() ? "" : ", ") + what;
     const float top = at.y + (high - (uses.empty() ? line : 2 * line)) / 2;
     draw->AddText({text, top}, ImGui::GetColorU32(ImGuiCol_Text), type_name(table).c_str());
-    draw->AddText({text, top + line}, ImGui::GetColorU32(colors::dim), uses.c_str());
+    const float end = std::min(ImGui::GetItemRectMax().x, draw->GetClipRectMax().x);
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
+    ImGui::RenderTextEllipsis(draw, {text, top + line}, {end, top + 2 * line}, end, uses.c_str(), nullptr, nullptr);
+    ImGui::PopStyleColor();
     return chosen;
 }
 
@@ -318,7 +322,10 @@ void material_section(SelectContext& e, MaterialId id) {
 
     const auto plugin = e.registry().find_material(material->type);
     form_row("Type", plugin ? plugin->table->tooltip.c_str() : "What kind of surface it is");
-    if (ImGui::BeginCombo("##type", plugin ? type_name(*plugin->table).c_str() : material->type.c_str(),
+    const std::string full = plugin ? type_name(*plugin->table) : material->type;
+    const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+    const bool fits = !plugin || ImGui::CalcTextSize(full.c_str()).x <= room;
+    if (ImGui::BeginCombo("##type", fits ? full.c_str() : plugin->table->label.c_str(),
                           ImGuiComboFlags_HeightLargest)) {
         for (const auto& [what, types] : types_by_use(e)) {
             ImGui::SeparatorText(what.c_str());

@@ -4,7 +4,6 @@
 #include "document/session.hpp"
 #include "io/material_emission.hpp"
 #include "state.hpp"
-#include "theme.hpp"
 #include "widgets.hpp"
 
 #include <imgui.h>
@@ -16,11 +15,11 @@ namespace restage::editor {
 namespace {
 
 bool letter_button(const char* letter, bool on, float size, const char* tooltip) {
-    ImGui::PushStyleColor(ImGuiCol_Text, on ? colors::accent : colors::dim);
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});
     const bool pressed = ImGui::Button(letter, {size, ImGui::GetTextLineHeight()});
     ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
+    if (on) ImGui::PopStyleColor();
     tip(tooltip);
     return pressed;
 }

@@ -112,6 +112,14 @@ void name_of_look(EditContext& e, LooksState& state, std::size_t index, const Ca
     }
 }
 
+// Where its picture is: "rendering, 12 s", "after 2 others".
+std::string awaited(const LookPictures::Shown& shown) {
+    if (shown.failed) return "no picture";
+    if (!shown.place) return "";
+    if (shown.place->before == 0) return fmt::format("rendering, {:.0f} s", shown.place->seconds);
+    return shown.place->before == 1 ? "the next one" : fmt::format("after {} others", shown.place->before);
+}
+
 void draw_look(SelectContext& e, PictureView& picture, LooksState& state, std::size_t index) {
     const Looks& looks = e.session().looks();
     const document::Look& look = looks.list[index];
@@ -126,7 +134,7 @@ void draw_look(SelectContext& e, PictureView& picture, LooksState& state, std::s
     ImGui::PushID(int(index));
     ImGui::BeginGroup();
     const bool renaming = state.renaming == index;
-    const Card drawn = card("look", shown.texture, shown.size, shown.failed ? "no picture" : "rendering ...", current,
+    const Card drawn = card("look", shown.texture, shown.size, awaited(shown).c_str(), current,
                             renaming ? "" : look.name + (changed ? " *" : ""));
     e.mark("look." + look.name);
     if (drawn.clicked) go_to_look(e, index);
@@ -147,7 +155,7 @@ void draw_look(SelectContext& e, PictureView& picture, LooksState& state, std::s
          (changed   ? "\nChanged since: " + state.differs
           : current ? std::string("\nThe scene looks like this")
                     : std::string("\nClick: go to it. Drag: another place. Right click: more")) +
-         (shown.stale ? "\nThe picture is older than the scene, and will be rendered again" : ""))
+         (shown.stale ? "\nThe picture is older than the scene: " + awaited(shown) : ""))
             .c_str());
     if (shown.stale) {
         const float radius = 4 * ImGui::GetStyle().FontScaleMain;

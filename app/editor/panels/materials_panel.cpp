@@ -103,13 +103,15 @@ bool cell(SelectContext& e, const LibraryItem& item, float side) {
     return hovered;
 }
 
-void filters(DocumentContext& e, LibraryState& state) {
+void filters(EditContext& e, LibraryState& state) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     ImGui::SetNextItemWidth(130 * scale);
     if (ImGui::BeginCombo("##category", state.category.empty() ? "All" : state.category.c_str(),
                           ImGuiComboFlags_HeightLargest)) {
         std::vector<std::string> all = categories_of(e);
         all.insert(all.begin(), {"", in_this_scene, own_presets});
+        for (const LibraryItem& item : state.borrowed)
+            if (std::ranges::find(all, item.category) == all.end()) all.push_back(item.category);
         for (const std::string& one : all) {
             if (ImGui::Selectable(one.empty() ? "All" : one.c_str(), one == state.category)) state.category = one;
             e.mark("materials.category." + one);
@@ -124,6 +126,9 @@ void filters(DocumentContext& e, LibraryState& state) {
     if (flow_button("Reload")) state.loaded = false;
     tip("Read the folders of presets again");
     e.mark("materials.reload");
+    if (flow_button("Of a file...")) ask_borrow_materials(e);
+    tip("Materials of another scene or project, with their textures: nothing else of it is used");
+    e.mark("materials.borrow");
 }
 
 bool wanted(const LibraryState& state, const LibraryItem& item) {
@@ -137,6 +142,7 @@ void draw_materials(SelectContext& e) {
     LibraryState& state = e.panel_state->library;
     filters(e, state);
     std::vector<LibraryItem> items = materials_of(e);
+    items.insert(items.end(), state.borrowed.begin(), state.borrowed.end());
     const auto& presets = presets_of(e);
     items.insert(items.end(), presets.begin(), presets.end());
     std::erase_if(items, [&](const LibraryItem& item) { return !wanted(state, item); });
