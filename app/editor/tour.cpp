@@ -6,6 +6,7 @@
 #include "editor.hpp"
 #include "saving.hpp"
 #include "theme.hpp"
+#include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -72,7 +73,10 @@ void Tour::begin_step(PanelContext& e) {
 void Tour::update(Editor& e) {
     if (!running_ || e.scene().instances.live() == 0 || e.opening().running()) return;
     if (!begun_) begin_step(e);
-    if (e.document() != document_) return end(); // another scene
+    if (e.document() != document_) { // another scene; at first the room, which was still being opened
+        if (step_ > 0) return end();
+        begin_step(e);
+    }
     const auto done = [&] {
         const scene::Scene& now = e.scene();
         switch (steps[step_].task) {
@@ -111,12 +115,13 @@ void Tour::update(Editor& e) {
     if (place.y > room.y * 0.75f) place.y = lower.y - 8 * gap;
     place = {std::clamp(place.x, gap, std::max(gap, room.x - width - gap)), std::max(place.y, gap)};
     ImGui::SetNextWindowPos(place);
-    ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleColor(ImGuiCol_Border, ImGui::GetColorU32(colors::accent));
     ImGui::Begin("##tour", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoDocking |
-                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNavFocus);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoNavFocus);
     ImGui::PopStyleColor();
+    dialog_width(280);
     ImGui::TextColored(colors::dim, "%s", fmt::format("{} of {}", step_ + 1, std::size(steps)).c_str());
     const bool blender = e.view.keys == KeyPreset::blender && step.blender_text;
     ImGui::TextWrapped("%s", blender ? step.blender_text : step.text);

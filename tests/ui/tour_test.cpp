@@ -35,7 +35,7 @@ TEST_CASE("the tour goes on when a step is done, by Next, and ends by Skip", "[u
     h.play("tour", [&](ImGuiTestContext* ctx) {
         IM_CHECK(!h.has(ctx, "tour.next"));
         e.tour.start();
-        IM_CHECK(h.has(ctx, "tour.next"));
+        h.wait_for(ctx, "tour.next");
         IM_CHECK_EQ(e.tour.step(), 0u);
         e.selection.set(std::vector<editor::InstanceId>{editor::InstanceId{1}});
         until(ctx, [&] { return e.tour.step() == 1; });

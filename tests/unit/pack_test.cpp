@@ -119,8 +119,8 @@ TEST_CASE("What is missing is told, and the rest is packed", "[pack]") {
     files.open(session, files.at("home/scenes/main.pbrt"));
     const document::Packed packed = files.pack(session, "packed");
     REQUIRE(packed.problems.size() == 2);
-    CHECK_THAT(packed.problems[0], ContainsSubstring("textures/wood.pfm is missing"));
-    CHECK_THAT(packed.problems[1], ContainsSubstring("one.ply"));
+    CHECK_THAT(packed.problems[0], ContainsSubstring("parts/one.ply is missing"));
+    CHECK_THAT(packed.problems[1], ContainsSubstring("textures/wood.pfm is missing"));
     document::Session again(files.registry);
     files.open(again, packed.project);
 }

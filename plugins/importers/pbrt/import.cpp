@@ -58,6 +58,10 @@ void Import::flush_report() {
     }
     lines_.clear();
     folded_.clear();
+    for (std::uint32_t i = 1; i < sources.size(); ++i) // after the scene file itself: Include and Import
+        told_.insert(sources.name(i));
+    for (const std::string& file : told_)
+        importing::tell_file_read(out, file);
 }
 
 const RestageOrigin* Import::origin(const std::string& lines) {
@@ -137,7 +141,7 @@ void Import::make_files_absolute(ParamList& params, bool tell) {
         std::error_code code;
         if (!std::filesystem::is_regular_file(path, code)) continue;
         param.strings[0] = path.string();
-        if (tell && told_.insert(path.string()).second) importing::tell_file_read(out, path.string());
+        if (tell) told_.insert(path.string());
     }
 }
 

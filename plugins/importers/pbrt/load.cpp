@@ -2,7 +2,6 @@
 #include "load.hpp"
 
 #include "builder.hpp"
-#include "common/report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,8 +50,6 @@ int load(const char* path, const RestageSceneWriter1* out) {
         const auto goes_on = [&] { return out->progress(out->ctx, 0, "parsing") != 0; };
         auto scene = parse(sources, folder, goes_on);
         if (!scene) return 0;
-        for (std::uint32_t i = 1; i < sources.size(); ++i)
-            importing::tell_file_read(*out, sources.name(i));
         std::string evidence;
         const Version version = detect_version(*scene, sources, evidence);
         import.emplace(*out, sources, folder, version);
