@@ -11,7 +11,7 @@ void add_import_options(CLI::App& command, std::vector<std::string>& assignments
         .add_option("--import-set", assignments,
                     "Option of the importer: for OBJ, PLY, STL and glTF units=mm|cm|m|in|ft and up=y|z, for OBJ "
                     "merge=true, for "
-                    "glTF scene=NAME (may be repeated). For a project: replaces the saved ones")
+                    "glTF scene=NAME and variant=NAME (may be repeated). For a project: replaces the saved ones")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
 }

@@ -5,6 +5,7 @@
 #include "document/exposure.hpp"
 #include "document/isolate.hpp"
 #include "document/looks.hpp"
+#include "document/pack.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
 #include "render/film_error.hpp"
@@ -154,7 +155,8 @@ Result<io::ImportedScene> open_scene(Context& context, const std::string& path, 
     RESTAGE_TRY(read.isolate, isolate_options(context));
     read.import_options = import_options;
     io::ImportedScene imported;
-    if (document::is_project(path)) { // saved by the editor: the original scene, and the changes
+    if (document::is_project(path) ||
+        document::is_packed(path)) { // saved by the editor: the original scene, and the changes
         document::Session session(context.registry());
         RESTAGE_CHECK(session.open(path, read));
         imported = {.scene = session.scene(), .report = session.report(), .importer = session.base().format};

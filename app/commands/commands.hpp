@@ -17,6 +17,7 @@ void add_render(CLI::App& program, Context& context);
 void add_merge(CLI::App& program, Context& context);
 void add_info(CLI::App& program, Context& context);
 void add_convert(CLI::App& program, Context& context);
+void add_pack(CLI::App& program, Context& context);
 void add_compare(CLI::App& program, Context& context);
 void add_plugins(CLI::App& program, Context& context);
 void add_check(CLI::App& program, Context& context);
@@ -33,7 +34,7 @@ void add_example(CLI::App& command, const char* example);
 
 // In the order of `restage --help`.
 inline constexpr void (*all_commands[])(CLI::App&, Context&) = {
-    add_edit,    add_demo,    add_render, add_merge,      add_info,  add_convert,
+    add_edit,    add_demo,    add_render, add_merge,      add_info,  add_convert,      add_pack,
     add_compare, add_plugins, add_check,  add_new_plugin, add_bench, add_import_child,
 };
 

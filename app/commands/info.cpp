@@ -4,12 +4,14 @@
 #include "document/exposure.hpp"
 #include "document/looks.hpp"
 #include "import_options.hpp"
+#include "io/choices.hpp"
 #include "io/material_emission.hpp"
 #include "rendering.hpp"
 #include "scene/placeholder.hpp"
 #include "scene/statistics.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -47,6 +49,9 @@ nlohmann::json describe(const io::ImportedScene& imported, const document::Looks
     nlohmann::json look_list = nlohmann::json::array();
     for (std::size_t i = 0; i < looks.list.size(); ++i)
         look_list.push_back({{"name", looks.list[i].name}, {"current", i == looks.current}});
+    nlohmann::json choices = nlohmann::json::object();
+    for (const io::Choices& one : io::choices_of(imported.report))
+        choices[one.option] = one.values;
     nlohmann::json report = nlohmann::json::array();
     for (const auto& e : imported.report.entries)
         report.push_back(
@@ -71,6 +76,7 @@ nlohmann::json describe(const io::ImportedScene& imported, const document::Looks
             {"cameras", s.cameras.live()},
             {"camera_list", cameras},
             {"looks", look_list},
+            {"choices", choices},
             {"film", {{"width", film.width}, {"height", film.height}, {"exposure", film.exposure}}},
             {"max_depth", s.settings.value.max_depth},
             {"samples", s.settings.value.samples},
@@ -114,6 +120,10 @@ void print(const nlohmann::json& d, const io::Report& report, bool all) {
         line += fmt::format("{}\"{}\"{}", line.empty() ? "" : ", ", look["name"].get<std::string>(),
                             look["current"].get<bool>() ? " (current)" : "");
     if (!line.empty()) std::printf("looks       %s\n", line.c_str());
+    for (const auto& [option, values] : d["choices"].items()) // for --import-set
+        std::printf("%s\n", fmt::format("{:<12}\"{}\"", option + "s",
+                                        fmt::join(values.get<std::vector<std::string>>(), "\", \""))
+                                .c_str());
     std::printf("film        %dx%d, %zu samples per pixel, paths up to %zu\n", d["film"]["width"].get<int>(),
                 d["film"]["height"].get<int>(), n("samples"), n("max_depth"));
     fmt::print("memory      geometry {:.1f} MB, pixels {:.1f} MB\n", d["memory_bytes"]["geometry"].get<double>() * 1e-6,

@@ -11,6 +11,7 @@
 #include "io/material_emission.hpp"
 #include "kept_pictures.hpp"
 #include "looks.hpp"
+#include "packing.hpp"
 #include "panels/light_buttons.hpp"
 #include "panels/outliner.hpp"
 #include "panels/state.hpp"
@@ -229,10 +230,14 @@ constexpr auto actions = std::to_array<Action>({
      "Adds a file's contents as new objects", has_scene, insert_dialog},
     {"file.import_again", "Import again...", 0, 0, "Reads the scene's file again with other options",
      [](const PanelContext& e) { return why_not_import_again(e).empty(); }, import_again},
+    {"file.read_again", "Read again", 0, 0, "Reads the scene's file again, with the options last chosen for its format",
+     [](const PanelContext& e) { return why_not_import_again(e).empty(); }, read_again},
     {"file.save", "Save", ImGuiMod_Ctrl | ImGuiKey_S, 0, "The project: the original scene and your changes", has_scene,
      [](Editor& e) { save(e); }},
     {"file.save_as", "Save as...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_S, 0, "The project under another name",
      has_scene, [](Editor& e) { save_as(e); }},
+    {"file.pack", "Pack project...", 0, 0, "A copy with all files that it needs, to take to another machine", has_scene,
+     run<pack_dialog>},
     {"file.revert", "Revert...", 0, 0, "Back to the last opened or saved state",
      [](const PanelContext& e) { return !e.session().path().empty() && e.session().modified(); }, revert},
     {"file.export", "Export...", ImGuiMod_Ctrl | ImGuiKey_E, 0, "A scene file for other programs", has_scene,
@@ -295,14 +300,15 @@ constexpr auto actions = std::to_array<Action>({
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0,
-     "Clear the selection; leave the entered group; first close the help, end measuring, or remove the array that is "
-     "being "
-     "made",
+     "Clear the selection; leave the entered group; first close the help, end measuring or the region, or remove the "
+     "array that is being made",
      [](const PanelContext& e) {
-         return e.panel_open("Help") || e.viewport.measurement.on || has_selection(e) || e.selection.entered();
+         return e.panel_open("Help") || e.viewport.measurement.on || e.viewport.region.active() || has_selection(e) ||
+                e.selection.entered();
      },
      [](Editor& e) {
          if (e.viewport.measurement.on) return void(e.viewport.measurement = {});
+         if (e.viewport.region.active()) return e.viewport.region.end();
          if (e.panel_open("Help")) return e.open_panel("Help", false);
          if (cancel_array(e)) return;
          e.selection.clear();
@@ -394,6 +400,14 @@ constexpr auto actions = std::to_array<Action>({
     {"view.all_lights", "All lights", 0, 0, "Ends all muting and soloing of lights",
      [](const PanelContext& e) { return e.panel_state->lights.any(); },
      [](Editor& e) { e.panel_state->lights.clear(); }},
+    {"view.region", "Render region", ImGuiMod_Ctrl | ImGuiKey_B, 0,
+     "Drag a rectangle in the picture: only there it is refined, until Esc or its close button", has_scene,
+     [](Editor& e) {
+         const bool active = e.viewport.region.active();
+         e.viewport.region.end();
+         e.viewport.region.choosing = !active;
+     },
+     [](const PanelContext& e) { return e.viewport.region.active(); }},
     {"view.overlays", "Overlays", ImGuiKey_V, 0, "Outlines, handles, numbers and messages over the picture", nullptr,
      [](Editor& e) { e.view.show_overlays = !e.view.show_overlays; },
      [](const PanelContext& e) { return e.view.show_overlays; }},
@@ -432,6 +446,8 @@ constexpr auto actions = std::to_array<Action>({
     {"show.measure", "Measure", ImGuiKey_M, 0, "The distance between two points on surfaces, by two clicks", has_scene,
      [](Editor& e) { e.viewport.measurement = {.on = !e.viewport.measurement.on}; },
      [](const PanelContext& e) { return e.viewport.measurement.on; }},
+    {"help.tour", "Tour", 0, 0, "Six steps on the example room: select, move, material, sky, camera, save", nullptr,
+     start_tour},
     {"help.shortcuts", "Shortcuts and help", ImGuiMod_Shift | ImGuiKey_Slash, 0, "All shortcuts, and how to navigate",
      nullptr, [](Editor& e) { e.open_panel("Help", !e.panel_open("Help")); },
      [](const PanelContext& e) { return e.panel_open("Help"); }},

@@ -16,6 +16,7 @@
 #include "plugin_actions.hpp"
 #include "query/navigation.hpp"
 #include "saving.hpp"
+#include "scene_pictures.hpp"
 #include "theme.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
@@ -99,7 +100,10 @@ void Editor::redo() {
 
 void Editor::request_quit() {
     if (!modals_.empty() && modals_.front().title == "Unsaved changes") return; // already asked
-    ask_unsaved(*this, "closing Restage", [](Editor& e) { e.quit_ = true; });
+    ask_unsaved(*this, "closing Restage", [](Editor& e) {
+        keep_scene_picture(e);
+        e.quit_ = true;
+    });
 }
 
 // --- a frame
@@ -121,6 +125,7 @@ void Editor::frame(const std::vector<int>* keys) {
     run_shortcuts(*this, keys);
     draw_panels();
     draw_palette(*this);
+    tour.update(*this);
     files_->jobs.update(*this);
     draw_modals();
     // A gesture ends when nothing is held any more and the sky of its last step is complete.
@@ -164,6 +169,7 @@ void Editor::follow_opening() {
         place_inserted(*(*result)->inserted);
         return;
     }
+    keep_scene_picture(*this);
     if (request.purpose == Opening::Purpose::recover) {
         session_->adopt_recovered(std::move(*(*result)->document));
         // The old file is removed once a new one exists.
@@ -302,7 +308,8 @@ void Editor::refresh_picture() {
                        .error = view.error,
                        .paused = files_->jobs.picture_paused() || panel_state->mixing.shown(),
                        .look = view::look_of(view.display.layer),
-                       .trial = trial.number};
+                       .trial = trial.number,
+                       .region = viewport.region.area};
     if (wanted == asked_ || scene().instances.live() == 0) return;
     asked_ = wanted;
     scene::Scene shown = panel_state->lights.follow(shown_scene_.follow(scene(), document_, trial), registry_);
@@ -321,6 +328,7 @@ void Editor::refresh_picture() {
                                                                  .variant = wanted.original ? 1u : 0u,
                                                                  .paused = wanted.paused,
                                                                  .look = wanted.look,
+                                                                 .region = wanted.region,
                                                                  .samples = wanted.samples,
                                                                  .seconds = wanted.seconds,
                                                                  .error = wanted.error});

@@ -7,6 +7,7 @@
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "shown_scene.hpp"
+#include "tour.hpp"
 
 namespace restage::io {
 struct ImportedScene;
@@ -44,6 +45,7 @@ class Editor final : public PanelContext {
     void redo();
     void reset_layout(); // panels are open and placed as at the first start
 
+    Tour tour;
     const Marks::Mark* find_mark(std::string_view name) const { return marks_.find(name); }
     // State and marks as JSON, for tests.
     std::string probe() const;
@@ -80,6 +82,7 @@ class Editor final : public PanelContext {
         bool paused = false;
         std::optional<render::ClayLook> look;
         std::uint64_t trial = 0; // Trial::number
+        std::optional<glm::vec4> region; // RenderRegion::area
         bool operator==(const Shown&) const = default;
     } asked_;
     struct Latency { // the latest of each [ms]

@@ -4,6 +4,7 @@
 #include "dialog_keys.hpp"
 #include "files.hpp"
 #include "panel_context.hpp"
+#include "scene_pictures.hpp"
 #include "theme.hpp"
 
 #include <fmt/chrono.h>
@@ -298,6 +299,13 @@ void Browser::draw_places(PanelContext& e, float height) {
     for (const std::string& folder : e.files().recent.folders()) {
         const fs::path path(folder);
         place(path.filename().empty() ? folder : path.filename().string(), path);
+    }
+    if (selected_ >= 0 && selected_ < int(shown_.size()) && !options_.folder) { // as it was last seen in the editor
+        const FileEntry& entry = *shown_[std::size_t(selected_)];
+        const float side = ImGui::GetContentRegionAvail().x;
+        ImGui::SetCursorPosY(
+            std::max(ImGui::GetCursorPosY(), ImGui::GetCursorPosY() + ImGui::GetContentRegionAvail().y - side));
+        if (!entry.folder) draw_scene_picture(e, folder_ / entry.name, side, "browser.picture", entry.time);
     }
     ImGui::EndChild();
 }

@@ -98,6 +98,19 @@ std::string import_options_text(const DocumentContext& e) {
     return text;
 }
 
+void read_again(Editor& e) {
+    const auto entry = importer_of_document(e);
+    if (!entry) return;
+    const auto chosen = e.panel_state->importing.options.find(entry->table->format);
+    const scene::ParamSet options =
+        fitting(entry->table->options,
+                chosen == e.panel_state->importing.options.end() ? e.session().base().options : chosen->second);
+    ask_unsaved(e, "reading it again", [options](Editor& now) {
+        const std::string& path = now.session().path();
+        now.open_now({.path = path.empty() ? now.session().base().file : path, .import_options = options});
+    });
+}
+
 void import_again(Editor& e) {
     struct State {
         scene::ParamSet values;
@@ -120,12 +133,7 @@ void import_again(Editor& e) {
             stay = false;
             const scene::ParamSet options = fitting(entry->table->options, state->values);
             context.panel_state->importing.options[entry->table->format] = options;
-            editor.later([&editor, options] {
-                ask_unsaved(editor, "reading it again", [options](Editor& now) {
-                    const std::string& path = now.session().path();
-                    now.open_now({.path = path.empty() ? now.session().base().file : path, .import_options = options});
-                });
-            });
+            editor.later([&editor] { read_again(editor); });
         }
         tip("A project keeps the changes that still apply to the scene");
         context.mark("import.again");

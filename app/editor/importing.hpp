@@ -26,6 +26,8 @@ std::string why_not_import_again(const DocumentContext& e);
 // "units=cm, up=z" of the document's scene; "" = none are set.
 std::string import_options_text(const DocumentContext& e);
 // Opens a dialog for options, and reopens the document with them.
+// At once, with the options last chosen for its format (ImportState), or those it was read with.
+void read_again(Editor& e);
 void import_again(Editor& e);
 
 } // namespace restage::editor

@@ -78,6 +78,14 @@ std::string prepare(std::filesystem::path& config) {
     return probe ? "" : probe.error().message;
 }
 
+// Once: it leaves a file of preferences.
+bool is_first_start(const std::filesystem::path& config) {
+    std::error_code code;
+    if (std::filesystem::exists(config / "preferences.json", code)) return false;
+    write_preferences(config, {});
+    return std::filesystem::exists(config / "preferences.json", code);
+}
+
 } // namespace
 
 Result<int> run_editor(const RunOptions& options) {
@@ -113,7 +121,10 @@ Result<int> run_editor(const RunOptions& options) {
                                                    .fonts = bin.parent_path() / "share/restage/fonts",
                                                    .layout = config},
                                                   log));
-    if (!options.scene.empty()) editor.open(options.scene);
+    if (!options.scene.empty())
+        editor.open(options.scene);
+    else if (options.probe.empty() && is_first_start(config))
+        start_tour(editor);
     offer_recovery(editor);
     std::filesystem::path commands = options.probe;
     commands += ".in";

@@ -9,6 +9,7 @@
 #include "opening.hpp"
 #include "plugin/registry.hpp"
 #include "scene/studio.hpp"
+#include "scene_pictures.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
@@ -25,8 +26,8 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
     std::vector<FileFilter> filters;
     FileFilter all{projects ? "Scenes and projects" : "Everything known", {}};
     if (projects) {
-        filters.push_back({"Restage projects", {"restage"}});
-        all.extensions = {"restage"};
+        filters.push_back({"Restage projects", {"restage", "zip"}});
+        all.extensions = {"restage", "zip"};
     }
     for (const auto& importer : registry.importers()) {
         filters.push_back({importer.table->label, importer.table->extensions});
@@ -58,6 +59,7 @@ void save_to(Editor& e, const fs::path& path, const Then& then) {
         return;
     }
     e.files().recent.add_file(path);
+    keep_scene_picture(e);
     e.notices.add(LogLevel::info, "Saved " + path.filename().string());
     if (then) then(e);
 }
@@ -217,7 +219,7 @@ void recent_menu(PanelContext& e) {
     for (std::size_t i = 0; i < files.size(); ++i) {
         const fs::path path(files[i]);
         if (ImGui::MenuItem(fmt::format("{}##{}", path.filename().string(), i).c_str())) e.open(path);
-        ImGui::SetItemTooltip("%s", files[i].c_str());
+        scene_picture_tip(e, path);
         e.mark("recent." + path.filename().string());
     }
     ImGui::Separator();

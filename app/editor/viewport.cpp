@@ -227,6 +227,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     const bool free = over && !gizmo.wants_mouse && navigation_ == Navigation::none;
     if (run_pick_tool(e, over && navigation_ == Navigation::none)) return;
     if (run_measuring(e, over && navigation_ == Navigation::none)) return;
+    if (run_region(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {

@@ -6,6 +6,7 @@
 #include "drag.hpp"
 #include "gizmo.hpp"
 #include "measure_tool.hpp"
+#include "region_tool.hpp"
 #include "selection.hpp"
 #include "texture.hpp"
 #include "view/display.hpp"
@@ -29,6 +30,7 @@ class Viewport {
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
     Measurement measurement;
+    RenderRegion region;
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object visible there in the shown picture; none outside.
@@ -54,6 +56,7 @@ class Viewport {
     void draw_axes(PanelContext& editor); // in the corner: a click looks along one
     void draw_layer_note(PanelContext& editor); // what is displayed if it is not the picture, and the way back
     bool run_measuring(PanelContext& editor, bool over); // true while the tool takes clicks
+    bool run_region(PanelContext& editor, bool over); // true while the tool takes clicks
     void draw_status(PanelContext& editor);
     void draw_progress(PanelContext& editor); // over the picture, while a scene is opened and prepared
     void draw_darkness(PanelContext& editor); // over a scene without light

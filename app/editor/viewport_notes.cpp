@@ -7,12 +7,12 @@
 #include "panels/scene_development.hpp"
 #include "panels/scene_panel.hpp"
 #include "panels/state.hpp"
+#include "scene_pictures.hpp"
 #include "theme.hpp"
+#include "tour.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
 #include "widgets.hpp"
-
-#include "base/file.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -142,7 +142,8 @@ void Viewport::draw_status(PanelContext& e) {
     else if (drawn_ && !drawn_->clay)
         text = picture_note(*drawn_, status.compiling, e.views.now().has_value()) +
                (e.panel_state->mixing.shown() ? "\nA mix of the lights' own pictures" : "") +
-               (e.panel_state->lights.any() ? "\nSome lights are muted in the view" : "");
+               (e.panel_state->lights.any() ? "\nSome lights are muted in the view" : "") +
+               (region.area ? "\nOnly the region is refined; Esc ends it" : "");
     if (const std::string selected = selection_note(e); !selected.empty() && status.state != view::ViewState::failed)
         text = selected + (text.empty() ? "" : "\n") + text;
     if (!text.empty() && (e.view.show_overlays || status.state == view::ViewState::failed)) {
@@ -235,7 +236,9 @@ void Viewport::draw_welcome(PanelContext& e, ImVec2 origin, ImVec2 space) {
     const float line = ImGui::GetFrameHeightWithSpacing();
     const auto& files = e.files().recent.files();
     const std::size_t recent = std::min<std::size_t>(files.size(), 5);
-    const float height = (4.5f + (recent ? 1 + float(recent) : 0)) * line;
+    const float picture = 40 * scale;
+    const float height =
+        (recent ? 5.5f : 4.5f) * line + float(recent) * (picture + 2 * ImGui::GetStyle().ItemSpacing.y);
     ImGui::SetCursorScreenPos({origin.x + (space.x - width) / 2, origin.y + std::max(0.f, (space.y - height) / 2)});
     ImGui::BeginChild("welcome", {width, std::min(height, space.y)}, 0, ImGuiWindowFlags_NoBackground);
     ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
@@ -246,21 +249,27 @@ void Viewport::draw_welcome(PanelContext& e, ImVec2 origin, ImVec2 space) {
         tip(find_action(id)->tooltip);
         e.mark(std::string("welcome.") + id);
     }
-    if (const auto bin = executable_dir()) {
-        const auto room = bin->parent_path() / "share/restage/scenes/demo/demo.pbrt";
-        if (std::error_code none; std::filesystem::exists(room, none)) {
-            if (ImGui::Button("Open the example room", {-FLT_MIN, 0})) e.open(room);
-            tip("A furnished room to experiment with");
-            e.mark("welcome.example");
-        }
+    if (const auto room = example_room(); !room.empty()) {
+        if (ImGui::Button("Open the example room", {-FLT_MIN, 0})) e.open(room);
+        tip("A furnished room to experiment with");
+        e.mark("welcome.example");
     }
     if (recent) {
         ImGui::Spacing();
         ImGui::TextColored(colors::dim, "Recent");
         for (std::size_t i = 0; i < recent; ++i) {
             const std::filesystem::path path(files[i]);
-            if (ImGui::Selectable(fmt::format("{}##{}", path.filename().string(), i).c_str())) e.open(path);
+            const ImVec2 at = ImGui::GetCursorPos();
+            if (ImGui::Selectable(fmt::format("##recent {}", i).c_str(), false, 0, {0, picture})) e.open(path);
             tip(files[i].c_str());
+            e.mark("welcome.recent." + path.filename().string());
+            ImGui::SetCursorPos(at);
+            draw_scene_picture(e, path, picture, "welcome.picture." + path.filename().string());
+            ImGui::SameLine();
+            ImGui::SetCursorPosY(at.y + (picture - ImGui::GetTextLineHeight()) / 2);
+            ImGui::TextUnformatted(path.filename().string().c_str());
+            ImGui::SetCursorPos({at.x, at.y + picture + ImGui::GetStyle().ItemSpacing.y});
+            ImGui::Dummy({0, 0});
         }
     }
     ImGui::EndChild();

@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 #include "document/exposure.hpp"
 #include "document/isolate.hpp"
+#include "document/pack.hpp"
 #include "document/project.hpp"
 
 namespace restage::document {
@@ -42,6 +43,10 @@ Result<io::ImportedScene> read_scene(const std::string& path, const plugin::Regi
 
 Result<Document> read_document(const std::string& path, const plugin::Registry& registry, const ReadOptions& options) {
     if (is_project(path)) return read_project(path, registry, options);
+    if (is_packed(path)) {
+        RESTAGE_TRY(const std::filesystem::path project, unpack_project(path, options.progress));
+        return read_project(project.string(), registry, options);
+    }
     RESTAGE_TRY(io::ImportedScene imported, read_scene(path, registry, options));
     RESTAGE_TRY(const std::string bytes, read_file(path));
     Document document;

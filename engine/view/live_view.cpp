@@ -5,7 +5,9 @@
 #include "plugin/registry.hpp"
 #include "render/film_error.hpp"
 #include "render/renderer.hpp"
+#include "scene/projection.hpp"
 #include "view/pictures.hpp"
+#include "view/region.hpp"
 #include "view/view_denoiser.hpp"
 
 #include <algorithm>
@@ -118,6 +120,8 @@ struct LiveView::Impl {
         std::optional<scene::Film> film; // the scene's own
         std::uint64_t shown = 0; // number of the film's request; 0 = none
         glm::uvec2 size{0}; // of the full picture
+        std::shared_ptr<const Frame> around; // of the region, while there is one
+        std::optional<glm::vec4> region; // of the film
         std::uint32_t divider = 1;
         double rate = 0; // pixels times samples per second
         bool shares_cores = false; // tracing and denoising run on the same cores
@@ -186,6 +190,7 @@ struct LiveView::Impl {
         const bool another_document = work.document != request.options.document;
         const bool another_scene = another_document || work.variant != request.options.variant;
         if (request.options.look) return show_look(work, size, another_document, another_scene);
+        work.around = !another_scene && has_pixels(request.options.region, size) ? surroundings() : nullptr;
         if (!another_scene && work.size == size && work.shown) {
             const std::uint32_t before = work.renderer->samples();
             if (!sync(work)) return;
@@ -206,6 +211,7 @@ struct LiveView::Impl {
         const double rate = coarse_rate(work);
         for (const std::uint32_t d : dividers) {
             if (d > 1 && pixels / (d * d) < coarse_pixels) break;
+            if (work.around) break;
             work.divider = d;
             if (pixels / (d * d) <= rate * coarse_budget) break;
         }
@@ -229,6 +235,20 @@ struct LiveView::Impl {
         const std::lock_guard lock(mutex);
         const double rate = double(frame.image.pixels()) / std::max(frame.denoise_seconds, 1e-6);
         denoise_rate = denoise_rate > 0 ? 0.7 * denoise_rate + 0.3 * rate : rate;
+    }
+
+    static bool has_pixels(const std::optional<glm::vec4>& region, glm::uvec2 size) {
+        scene::Film film;
+        film.width = size.x;
+        film.height = size.y;
+        film.crop = region.value_or(glm::vec4(0));
+        const glm::uvec4 window = scene::crop_window(film);
+        return window.y > window.x && window.w > window.z;
+    }
+    // The picture that stays around a region; null if there is none yet.
+    std::shared_ptr<const Frame> surroundings() const {
+        const std::lock_guard lock(mutex);
+        return pictures.raw();
     }
 
     void change_scene(Work& work) {
@@ -318,9 +338,11 @@ struct LiveView::Impl {
             work.request->film->filename.clear();
         }
         if (std::exchange(work.film, work.request->film) != work.request->film) ++work.film_version;
+        const auto region = work.around ? work.request->options.region : std::nullopt;
+        if (std::exchange(work.region, region) != region) ++work.film_version;
         film.width = size.x;
         film.height = size.y;
-        film.crop = {0, 1, 0, 1};
+        film.crop = region.value_or(glm::vec4(0, 1, 0, 1));
         scene.film.version = work.film_version;
         const auto start = Clock::now();
         auto ready = work.renderer->sync(scene);
@@ -386,8 +408,7 @@ struct LiveView::Impl {
         if (stopped) return; // the new request is next
         if (renderer.samples() <= before) work.published_samples = 0; // something compiled: the film started again
         const double took = seconds_since(start);
-        const glm::uvec2 size = glm::max(work.size / work.divider, glm::uvec2(1));
-        const double rate = double(size.x) * size.y / std::max(took, 1e-6);
+        const double rate = double(renderer.film()->width()) * renderer.film()->height() / std::max(took, 1e-6);
         // The first pass of new code is slow, hence no measure: a fast pass counts immediately, a slow one gradually.
         work.rate = work.rate <= 0 ? rate : std::max(rate, work.rate) * 0.3 + std::min(rate, work.rate) * 0.7;
         const auto compiling = renderer.compiling();
@@ -433,6 +454,7 @@ struct LiveView::Impl {
         frame->divider = work.divider;
         frame->seconds = seconds_since(work.request->time);
         frame->relative_error = render::relative_error(frame->image);
+        if (work.around) put_around(work, *frame);
         const std::uint32_t samples = work.renderer->samples();
         // Denoise at powers of two, and the last one.
         const bool denoise = work.request->options.denoise &&
@@ -441,6 +463,15 @@ struct LiveView::Impl {
         work.last_publish = Clock::now();
         put(frame);
         if (denoise) denoiser->add(std::move(frame));
+    }
+
+    static void put_around(const Work& work, Frame& frame) {
+        const render::FilmImage &around = work.around->image, part = std::move(frame.image);
+        const glm::uvec4 window = scene::crop_window(work.request->scene.film.value);
+        const glm::uvec2 lower(window.x, window.z);
+        frame.image = with_part(around, work.size, part, lower);
+        frame.counts = with_part(work.around->counts, {around.width, around.height}, work.size, frame.counts,
+                                 {part.width, part.height}, lower);
     }
 
     void put(std::shared_ptr<const Frame> frame) { // [any]

@@ -50,6 +50,9 @@ struct ViewOptions {
     bool paused = false; // keep the current picture
     std::optional<render::ClayLook>
         look; // show first hits: nothing is traced meanwhile, and the picture continues later
+    // Only this part is rendered, at full resolution; around it the picture stays as it was. x0 x1 y0 y1 in [0,1], as
+    // Film::crop. Without a picture of the document yet, all of it.
+    std::optional<glm::vec4> region;
     std::uint32_t samples = 0; // stop at this many per pixel; 0 = never
     double seconds = 0; // stop after this time; 0 = never
     double error = 0; // stop at this relative error; 0 = never

@@ -4,6 +4,7 @@
 #include "values.hpp"
 #include "work.hpp"
 
+#include "document/pack.hpp"
 #include "document/preset.hpp"
 #include "document/project.hpp"
 #include "io/strict.hpp"
@@ -435,6 +436,25 @@ void bind_session(nb::module_& m, nb::class_<Workspace>& c) {
                 take(w.session().save_project(path.string()));
             },
             "path"_a, "Writes a project, *.restage: a reference to the original file, and the changes.")
+        .def(
+            "pack",
+            [](Workspace& w, const std::filesystem::path& path, const nb::object& progress) {
+                const std::string project = w.session().recovery_text({});
+                return work(w.host(), progress,
+                            [&](io::Progress tell) {
+                                document::ReadOptions reading;
+                                reading.progress = std::move(tell);
+                                return document::pack_project(project, path, w.host().registry(), reading);
+                            })
+                    .problems;
+            },
+            "path"_a, "progress"_a = nb::none(),
+            "Writes the project with all files that it needs into a new or empty folder, or a file .zip, which opens "
+            "like a "
+            "project. Returns a sentence for each thing that is missing or will not be found on another machine. The "
+            "session and its file stay as they are. progress: see restage.open.",
+            nb::sig("def pack(self, path: str | os.PathLike, progress: collections.abc.Callable[[float, str], bool | "
+                    "None] | None = None) -> list[str]"))
         .def("__repr__", [](Workspace& w) {
             if (w.closed()) return std::string("<restage.Session (closed)>");
             return "<restage.Session \"" + w.session().path() + "\": " + std::to_string(w.scene().instances.live()) +

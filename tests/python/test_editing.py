@@ -353,6 +353,18 @@ def test_size_exposure_and_settings_are_edits(demo):
     assert demo.up == (0, 0, 1) and demo.bounds.shape == (2, 3) and demo.format == "pbrt-v4"
 
 
+def test_packing(scenes, tmp_path):
+    with restage.open(scenes / "cornell/cornell.pbrt") as session:
+        session.materials[0]["reflectance"] = (0.25, 0.5, 0.75)
+        assert session.pack(tmp_path / "packed.zip") == []
+        assert session.modified  # only a copy was written
+        with pytest.raises(restage.Error, match="is not an empty folder"):
+            session.pack(scenes)
+    with restage.open(tmp_path / "packed.zip") as again:
+        assert again.materials[0]["reflectance"] == pytest.approx((0.25, 0.5, 0.75))
+        assert again.path == str(tmp_path / "packed/packed.restage")
+
+
 def test_reports_export_projects_and_reopening(scenes, tmp_path):
     with restage.open(scenes / "cornell/cornell.pbrt") as session:
         assert session.report.dropped == 0 and session.report.kept >= 0 and "kept" in repr(session.report)

@@ -541,6 +541,33 @@ def grid_and_measure(s):
 
 
 @state
+def render_region(s):
+    s.stop()
+    s.start(DEMO)
+    s.editor.key("ctrl+b")
+    s.editor.drag(("picture", 0.3, 0.35), ("picture", 0.7, 0.75))
+    time.sleep(2)
+
+
+@state
+def tour(s):
+    s.stop()
+    s.start(DEMO)
+    s.editor.click("menu.help")
+    s.editor.click("help.tour")
+    s.editor.wait(lambda t: "tour.next" in t["marks"], "the first step", 120)
+    time.sleep(3)
+
+
+@state
+def pack_project(s):
+    s.start(DEMO)
+    s.editor.click("menu.file")
+    s.editor.click("file.pack")
+    time.sleep(1)
+
+
+@state
 def statistics(s):
     s.stop()
     s.start(DEMO)

@@ -8,6 +8,7 @@ namespace restage::editor {
 
 class PictureView;
 
+void choices_section(EditContext& editor); // of the file: its scenes, its variants
 void sky_section(EditContext& editor);
 void camera_section(SelectContext& editor);
 void film_section(EditContext& editor);

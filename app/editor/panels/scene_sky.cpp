@@ -310,6 +310,7 @@ void sky_section(EditContext& e) {
 }
 
 void draw_scene_settings(SelectContext& e, PictureView& picture) {
+    choices_section(e);
     sky_section(e);
     camera_section(e);
     film_section(e);

@@ -32,4 +32,8 @@ void Report::flush() {
 
 std::string quote(const std::string& text) { return '"' + text + '"'; }
 
+void tell_file_read(const RestageSceneWriter1& out, const std::string& path) {
+    out.report(out.ctx, RESTAGE_KEPT, path.c_str(), 0, "file", "read");
+}
+
 } // namespace restage::importing

@@ -44,4 +44,8 @@ class Report {
 
 std::string quote(const std::string& text); // "text", for messages
 
+// Lists a further file that the import read (docs/plugins.md). Not for pictures that the host reads and meshes'
+// source_file, which the scene names.
+void tell_file_read(const RestageSceneWriter1& out, const std::string& path);
+
 } // namespace restage::importing

@@ -70,9 +70,14 @@ class Importer {
     void tell_leftovers();
     void progress(float done, const char* what) const;
 
+    // choices.cpp
+    std::optional<int> asked(const char* option, const std::vector<std::string>& names) const;
+    void tell_choices(const char* option, const std::vector<std::string>& names, std::size_t least);
+    void choose_variant();
+    int material_of(const tinygltf::Primitive&) const;
+
     // nodes.cpp
     std::vector<int> choose_roots();
-    std::optional<int> asked_scene() const;
     std::string scene_name(int scene) const;
     void find_transforms(int node, const Matrix& parent, bool hidden, int depth);
     bool shows_something(int node) const;
@@ -149,6 +154,7 @@ class Importer {
     const tinygltf::Model& model_;
     const Placement placement_; // of the file's root nodes
     Report report_;
+    std::optional<int> variant_; // of the materials; none = the file's own
     std::vector<Matrix> world_;     // of each node
     std::vector<int> visits_;       // of each node: 0 = not in the scene
     std::vector<char> hidden_;      // of each node: KHR_node_visibility, its own or an ancestor's

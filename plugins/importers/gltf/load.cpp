@@ -67,6 +67,7 @@ void Importer::run() {
     world_.resize(model_.nodes.size(), placement_.to_world);
     visits_.resize(model_.nodes.size());
     hidden_.resize(model_.nodes.size());
+    choose_variant();
     const std::vector<int> roots = choose_roots();
     for (const int root : roots)
         find_transforms(root, placement_.to_world, false, 0);

@@ -295,7 +295,8 @@ void Importer::tangents(const tinygltf::Primitive& p, const std::string& who, co
 
 std::optional<Importer::Piece> Importer::primitive(int mesh, std::size_t index, int node) {
     const auto& m = model_.meshes[static_cast<std::size_t>(mesh)];
-    const auto& p = m.primitives[index];
+    tinygltf::Primitive p = m.primitives[index];
+    p.material = material_of(p);
     const auto& n = model_.nodes[static_cast<std::size_t>(node)];
     const bool shared = n.skin < 0 && n.weights.empty();
     const auto key = std::pair(mesh, index);
@@ -309,8 +310,6 @@ std::optional<Importer::Piece> Importer::primitive(int mesh, std::size_t index, 
     if (auto buffer = read_primitive(p, who, node, mesh, sets, colors)) {
         const VertexColor color = vertex_color(p, who, colors, sets, *buffer);
         const MadeMaterial& made = material(p.material, color);
-        if (p.extensions.contains("KHR_materials_variants"))
-            report_.dropped(who + ": variants", "the first material is shown");
         tangents(p, who, made, *buffer);
         piece = Piece{buffer->push(out_, name, ""), buffer->bounds(), &made};
     }

@@ -3,6 +3,7 @@
 
 #include "common/file.hpp"
 #include "common/json_depth.hpp"
+#include "common/report.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -239,6 +240,8 @@ tinygltf::Model parse_model(const fs::path& path, std::string_view bytes, const 
     const std::string& least = model.asset.minVersion; // glTF 2.0, 3.2
     if (!least.empty() && least != "2.0" && least != "2")
         throw ImportError{"it is for programs that read glTF " + least + " (asset.minVersion); version 2.0 is read"};
+    for (const auto& [name, buffer] : files.by_name)
+        tell_file_read(out, buffer.path.string());
     return model;
 }
 

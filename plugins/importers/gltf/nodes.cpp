@@ -3,7 +3,6 @@
 #include "importer.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace restage::gltf {
@@ -58,7 +57,11 @@ std::string Importer::node_name(int index) const {
 
 // The root nodes: those of the default scene; without scenes, those without a parent (3.5.1).
 std::vector<int> Importer::choose_roots() {
-    const std::optional<int> asked = asked_scene();
+    std::vector<std::string> names;
+    for (const auto& scene : model_.scenes)
+        names.push_back(scene.name);
+    tell_choices("scene", names, 2);
+    const std::optional<int> wanted = asked("scene", names);
     if (model_.scenes.empty()) {
         std::vector<char> child(model_.nodes.size());
         for (const auto& node : model_.nodes)
@@ -71,7 +74,7 @@ std::vector<int> Importer::choose_roots() {
         report_.kept("scene", "the file names none; its " + std::to_string(roots.size()) + " root nodes are shown");
         return roots;
     }
-    int index = asked.value_or(model_.defaultScene);
+    int index = wanted.value_or(model_.defaultScene);
     if (index < 0) {
         index = 0;
         while (index + 1 < static_cast<int>(model_.scenes.size()) &&
@@ -85,27 +88,9 @@ std::vector<int> Importer::choose_roots() {
     for (std::size_t i = 0; i < model_.scenes.size(); ++i)
         if (static_cast<int>(i) != index && !model_.scenes[i].nodes.empty())
             report_.dropped("scene " + quote(scene_name(static_cast<int>(i))),
-                            asked ? "the file contains several; another one was requested"
-                                  : "the file contains several; its default one is opened (import option scene)");
+                            wanted ? "the file contains several; another one was requested"
+                                   : "the file contains several; its default one is opened (import option scene)");
     return scene.nodes;
-}
-
-// By the option "scene": a name, or a number from 1.
-std::optional<int> Importer::asked_scene() const {
-    const std::string asked(choice_option(out_, "scene"));
-    if (asked.empty()) return std::nullopt;
-    std::string known;
-    for (std::size_t i = 0; i < model_.scenes.size(); ++i) {
-        const std::string& name = model_.scenes[i].name;
-        if (name == asked) return static_cast<int>(i);
-        known += (i ? ", " : "") + std::to_string(i + 1) + (name.empty() ? "" : " " + quote(name));
-    }
-    std::size_t number = 0;
-    const auto [end, code] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
-    if (code == std::errc() && end == asked.data() + asked.size() && number >= 1 && number <= model_.scenes.size())
-        return static_cast<int>(number - 1);
-    throw ImportError{"there is no scene " + quote(asked) + "; " +
-                      (known.empty() ? "the file names none" : "there are " + known)};
 }
 
 std::string Importer::scene_name(int index) const {

@@ -12,6 +12,9 @@ static const RestageParam options[] = {
     restage::importing::up_option,
     RESTAGE_TEXT_PARAM("scene", "Scene", 0,
                        "The scene to read, by its name or its number from 1. Empty: the file's default"),
+    RESTAGE_TEXT_PARAM(
+        "variant", "Variant", 0,
+        "The variant of the materials, by its name or its number from 1. Empty: the file's own materials"),
 };
 
 static const RestageImporter1 importer = {

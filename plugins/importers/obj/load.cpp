@@ -75,6 +75,7 @@ void Importer::read_libraries() {
                             "it cannot be read: " + reason + ": " + file.string() + "; its materials are grey", line);
             continue;
         }
+        tell_file_read(out_, file.string());
         libraries_.push_back({file, read_mtl(*text)});
     }
 }

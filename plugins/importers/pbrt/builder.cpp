@@ -52,7 +52,8 @@ bool Builder::run(SceneFile& scene) {
         for (Param& param : directive.params.params)
             param.color_space = state_.color_space;
         if (directive.verb != Verb::shape && directive.verb != Verb::film)
-            import_.make_files_absolute(directive.params);
+            import_.make_files_absolute(directive.params, // pictures are the host's to read
+                                        directive.verb != Verb::texture && directive.verb != Verb::light_source);
         step(directive);
         if (directive.verb == Verb::shape) directive.params = {}; // no longer needed: the host has its copy
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import.hpp"
 
+#include "common/report.hpp"
 #include "lexer.hpp"
 
 #include <algorithm>
@@ -57,6 +58,10 @@ void Import::flush_report() {
     }
     lines_.clear();
     folded_.clear();
+    for (std::uint32_t i = 1; i < sources.size(); ++i) // after the scene file itself: Include and Import
+        told_.insert(sources.name(i));
+    for (const std::string& file : told_)
+        importing::tell_file_read(out, file);
 }
 
 const RestageOrigin* Import::origin(const std::string& lines) {
@@ -125,7 +130,7 @@ std::filesystem::path Import::resolve(const std::string& name, Location at) cons
     return code ? path : real;
 }
 
-void Import::make_files_absolute(ParamList& params) const {
+void Import::make_files_absolute(ParamList& params, bool tell) {
     for (Param& param : params.params) {
         if (param.strings.size() != 1 || param.strings[0].empty()) continue;
         const bool file = param.type == "string" &&
@@ -134,7 +139,9 @@ void Import::make_files_absolute(ParamList& params) const {
         if (!file && !spectrum_file) continue;
         const std::filesystem::path path = resolve(param.strings[0], param.at);
         std::error_code code;
-        if (std::filesystem::is_regular_file(path, code)) param.strings[0] = path.string();
+        if (!std::filesystem::is_regular_file(path, code)) continue;
+        param.strings[0] = path.string();
+        if (tell) told_.insert(path.string());
     }
 }
 

@@ -10,6 +10,7 @@
 #include <restage/scene_io.h>
 #include <deque>
 #include <map>
+#include <set>
 
 namespace restage::pbrt {
 
@@ -67,8 +68,8 @@ class Import {
     // Resolves a path: relative to the main file, else to the file that names it. Absolute; may not exist.
     std::filesystem::path resolve(const std::string& name, Location at) const;
 
-    // Makes existing files' paths absolute: verbatim lines are written elsewhere.
-    void make_files_absolute(ParamList& params) const;
+    // Makes existing files' paths absolute: verbatim lines are written elsewhere. `tell`: also lists the files as read.
+    void make_files_absolute(ParamList& params, bool tell);
 
     // A colour parameter in linear sRGB. nullopt: absent, a texture, or unreadable (reported).
     std::optional<Rgb> color(const ParamList& params, std::string_view name, Role role);
@@ -107,6 +108,7 @@ class Import {
     std::deque<Line> lines_;
     std::map<std::string, Line*> folded_;
     std::map<std::string, std::optional<Spectrum>> spectra_; // by path
+    std::set<std::string> told_; // files listed as read
     std::filesystem::path folder_;
 };
 
