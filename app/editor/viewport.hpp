@@ -6,6 +6,7 @@
 #include "drag.hpp"
 #include "gizmo.hpp"
 #include "measure_tool.hpp"
+#include "place_texture.hpp"
 #include "selection.hpp"
 #include "texture.hpp"
 #include "view/display.hpp"
@@ -29,6 +30,7 @@ class Viewport {
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
     Measurement measurement;
+    TexturePlacing placing;
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object visible there in the shown picture; none outside.
