@@ -415,18 +415,20 @@ def projecting_a_texture(s):
     s.start(ROOT / "scenes/cornell/cornell.pbrt")
     s.select("Floor")
     s.editor.key("ctrl+p")
-    s.editor.type("project texture\n")
+    s.editor.type("project texture")
+    time.sleep(1)  # until it is found
+    s.editor.key("Return")
     s.editor.wait(lambda t: t["modal"] == "Project texture", "the dialog")
     s.rest()
 
 
 @state
-def snapping_to_a_wall(s):
+def snapping(s):
     s.stop()
     s.start(DEMO)
     s.select("Vase")
     s.editor.click("toolbar.snap")
-    for target in ("surface", "wall"):
+    for target in ("grid", "surface", "wall"):
         s.editor.click("snap." + target)
     s.editor.key("Escape")
     s.select("Vase")
