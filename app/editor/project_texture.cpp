@@ -35,12 +35,13 @@ void project_texture_dialog(SelectContext& e) {
     scene::BoxOptions options{.size = covering_size(e.scene(), e.selection.instances()), .up = e.up()};
     e.show_modal("Project texture", [options, size = float(options.size)](PanelContext& editor) mutable {
         dialog_width(400);
-        ImGui::TextWrapped(
+        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetItemRectSize().x);
+        ImGui::TextUnformatted(
             "Gives each side of the selected objects texture coordinates, seen from the front. They are part of the "
             "mesh, and exported with it; other objects keep theirs.");
+        ImGui::PopTextWrapPos();
         ImGui::Spacing();
         form_row("Size", "Of one repetition of a texture, in scene units");
-        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
         ImGui::DragFloat("##size", &size, drag_speed(size), 1e-4f, 1e6f, "%.4g", ImGuiSliderFlags_AlwaysClamp);
         editor.mark("project.size");
         form_row("Along",
