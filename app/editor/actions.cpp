@@ -15,7 +15,9 @@
 #include "panels/light_buttons.hpp"
 #include "panels/outliner.hpp"
 #include "panels/state.hpp"
+#include "place_texture.hpp"
 #include "plugin/registry.hpp"
+#include "project_texture.hpp"
 #include "query/navigation.hpp"
 #include "query/support.hpp"
 #include "query/touching.hpp"
@@ -279,8 +281,8 @@ constexpr auto actions = std::to_array<Action>({
     {"edit.arrange", "Arrange...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_A, 0,
      "A panel to align, distribute, mirror, repeat and replace the selection", has_scene, show_arrange},
     {"edit.array", "Array...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_D, 0,
-     "Copies in a line, a circle or a grid, which change with their numbers until they are kept", has_objects,
-     ask_for_array},
+     "Copies in a line, a circle, a grid or along a path, which change with their numbers until they are kept",
+     has_objects, ask_for_array},
     {"edit.mirror_x", "Mirror x", 0, 0, "Mirrors the selection at its centre, along the world's x axis", has_selection,
      mirror<0>},
     {"edit.mirror_y", "Mirror y", 0, 0, "Mirrors the selection at its centre, along the world's y axis", has_selection,
@@ -297,16 +299,23 @@ constexpr auto actions = std::to_array<Action>({
      "Click a surface: the selected light or lamp goes around it, at its distance, to where the surface reflects it "
      "to the view",
      [](const PanelContext& e) { return can_solo(e); }, run<point_highlight>},
+    {"edit.place_texture", "Place texture", ImGuiKey_P, 0,
+     "A frame on the active object moves, turns and scales its texture in the picture", has_objects,
+     run<begin_placing>},
+    {"edit.project_texture", "Project texture...", 0, 0,
+     "Texture coordinates for the selected objects, from the front of each side (box projection)", has_objects,
+     run<project_texture_dialog>},
     {"select.all", "All", ImGuiMod_Ctrl | ImGuiKey_A, ImGuiKey_A, "Select every visible object that is not locked",
      has_scene, select_all},
     {"select.none", "None", ImGuiKey_Escape, 0,
-     "Clear the selection; leave the entered group; first close the help, end measuring or the region, or remove the "
-     "array that is being made",
+     "Clear the selection; leave the entered group; first close the help, end measuring, placing a texture or the "
+     "region, or remove the array that is being made",
      [](const PanelContext& e) {
          return e.panel_open("Help") || e.viewport.measurement.on || e.viewport.region.active() || has_selection(e) ||
                 e.selection.entered();
      },
      [](Editor& e) {
+         if (e.viewport.placing.on) return end_placing(e);
          if (e.viewport.measurement.on) return void(e.viewport.measurement = {});
          if (e.viewport.region.active()) return e.viewport.region.end();
          if (e.panel_open("Help")) return e.open_panel("Help", false);

@@ -31,6 +31,18 @@ bool around_last(const ArrangeState& a, const std::vector<scene::Thing>& things)
     return a.array.kind == ArrayKind::circle && a.array.around_last && things.size() > 1;
 }
 
+glm::dvec3 underside(const scene::Bounds& box, const glm::dvec3& up) {
+    return box.center() - up * (0.5 * std::abs(glm::dot(box.size(), up)));
+}
+
+std::vector<glm::dmat4> path_moves(const ArrangeState::Array& a, const glm::dvec3& start, const glm::dvec3& up) {
+    std::vector<glm::dvec3> points{start};
+    points.insert(points.end(), a.path.begin(), a.path.end());
+    return scene::path_array(
+        scene::path_through(points, a.smooth),
+        {.count = a.count, .spacing = a.by_spacing ? a.path_spacing : 0, .up = up, .turn = a.turn});
+}
+
 std::vector<glm::dmat4> moves_of(const ArrangeState::Array& a, const glm::dvec3& middle) {
     if (a.kind == ArrayKind::grid) return scene::grid_array(a.grid, a.spacing);
     if (a.kind == ArrayKind::line)
@@ -155,6 +167,8 @@ bool array_is_live(const SelectContext& e) {
            ImGui::GetFrameCount() - a.drawn <= 1;
 }
 
+glm::dvec3 path_start(const SelectContext& e) { return underside(e.selection.bounds(e.scene()), e.up()); }
+
 void suit_array(SelectContext& e) {
     ArrangeState::Array& a = e.panel_state->arrange.array;
     const std::vector<scene::Thing>& things = things_of(e);
@@ -165,6 +179,7 @@ void suit_array(SelectContext& e) {
     a.axis = axis_of(e.up());
     a.around_last = things.size() > 1;
     a.center = box.center() + step * 2.0;
+    a.path_spacing = std::max(glm::length(step), 1e-6);
     for (int i = 0; i < 3; ++i) {
         a.grid[i] = i == a.axis ? 1 : 3;
         a.spacing[i] = box.size()[i] > 0 ? box.size()[i] * 1.05 : std::max(box.radius(), 1e-3);
@@ -190,7 +205,10 @@ void change_array(SelectContext& e) {
             a.array.center = scene::world_bounds(start, things.back()).center();
         }
         const scene::Bounds box = scene::world_bounds(start, ids);
-        auto made = scene::duplicate_each(start, ids, moves_of(a.array, box.empty() ? a.array.center : box.center()));
+        auto made = scene::duplicate_each(start, ids,
+                                          a.array.kind == ArrayKind::path
+                                              ? path_moves(a.array, underside(box, e.up()), e.up())
+                                              : moves_of(a.array, box.empty() ? a.array.center : box.center()));
         Result<bool> done = false;
         if (made) {
             made->edit.label.replace(0, std::string_view("Duplicate").size(), "Array of");
@@ -215,7 +233,10 @@ void keep_array(SelectContext& e) {
 }
 
 bool cancel_array(SelectContext& e) {
-    if (!array_is_live(e)) return false;
+    ArrangeState& array = e.panel_state->arrange;
+    const bool drawing = std::exchange(array.drawing, false);
+    if (drawing) array.array.path.clear();
+    if (!array_is_live(e)) return drawing;
     e.change([&e](document::Session& session) {
         ArrangeState& a = e.panel_state->arrange;
         if (array_is_live(e) && a.live->changed) session.undo();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "scene/arrange.hpp"
+#include "scene/path_array.hpp"
 #include "selection.hpp"
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace restage::editor {
 
 class SelectContext;
 
-enum class ArrayKind { line, circle, grid };
+enum class ArrayKind { line, circle, grid, path };
 
 struct ArrangeState {
     bool align_to_all = false; // else to the last selected thing
@@ -37,7 +38,11 @@ struct ArrangeState {
         bool turn = true;
         glm::ivec3 grid{3, 1, 3};
         glm::dvec3 spacing{1};
+        std::vector<glm::dvec3> path; // points after the selection's own place, drawn in the picture
+        bool smooth = true, by_spacing = false;
+        double path_spacing = 1;
     } array;
+    bool drawing = false; // a path: clicks in the picture are its points
     struct Live {
         scene::Scene start; // before it
         std::vector<InstanceId> selected, copied,
@@ -70,6 +75,7 @@ void replace_by_copied(SelectContext& editor);
 
 // Whether the array of the panel can still change, is kept by Enter and removed by Esc.
 bool array_is_live(const SelectContext& editor);
+glm::dvec3 path_start(const SelectContext& editor); // of an array along a path: the middle of the selection's underside
 void suit_array(SelectContext& editor); // settings that suit the selection
 void change_array(SelectContext& editor); // makes it, or again after its settings changed
 void keep_array(SelectContext& editor); // and select all of it

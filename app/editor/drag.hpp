@@ -8,6 +8,7 @@
 #include "selection.hpp"
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 namespace restage::editor {
 
 class PanelContext;
+struct Snapping; // snap_drag.hpp
 
 // Displacement of a moved thing as the mouse moves: over the plane of `up` or along an axis handle, and
 // along `up` while Alt is held. Switching between the two continues from the current place.
@@ -52,6 +54,7 @@ struct Drag {
     // Of the handles, about the pivot: at the start, and now, in ImGuizmo's form.
     glm::dmat4 frame{1};
     glm::mat4 current{1};
+    std::shared_ptr<Snapping> snapping; // of moves; null until it is used
 };
 
 // Records the dragged things, or copies of them, and their places.

@@ -11,6 +11,7 @@
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
 #include "plugin/table_reader.hpp"
+#include "project_texture.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
 #include "saving.hpp"
@@ -141,9 +142,9 @@ void drop_image(PanelContext& e, const fs::path& path, InstanceId on) {
         });
     ask_scope(e, {on}, path.filename().string(), [path](SelectContext& editor, const MaterialScope& scope) {
         with_image(editor, path, [path, scope](PanelContext& ed, std::shared_ptr<const scene::PixelData> data) {
-            ed.edit([path, scope, data = std::move(data), &registry = ed.registry()](const scene::Scene& s) {
+            ed.edit([path, scope, data = std::move(data), &ed](const scene::Scene& s) {
                 return edit_in_scope(s, scope, [&](const scene::Scene& now, scene::Id<scene::Material> id) {
-                    return make_texture(now, registry, id, path, data);
+                    return project_where_needed(ed, now, make_texture(now, ed.registry(), id, path, data), id);
                 });
             });
         });

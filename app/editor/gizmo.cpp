@@ -4,6 +4,7 @@
 #include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "scene/projection.hpp"
+#include "snap_drag.hpp"
 #include "viewport.hpp"
 
 #include <ImGuizmo.h>
@@ -132,13 +133,19 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     if (ImGuizmo::IsUsing() && !drag.active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) {
         begin_drag(e, drag, io.KeyShift); // a click is not a drag
         drag.path.begin(drag.pivot, e.up(), mouse_of(e), true);
+        if (e.view.gizmo == GizmoMode::move) begin_snapping(e, drag, drag.pivot, mouse_of(e).ray);
     }
     if (drag.active && (moved || io.KeyAlt)) {
         // The handles' change since the start, about the pivot.
         const glm::dmat4 there = glm::translate(glm::dmat4(1), drag.pivot);
         if (e.view.gizmo == GizmoMode::move) {
-            const glm::dvec3 by = drag.path.update(io.KeyAlt, mouse_of(e), glm::dvec3(drag.current[3]),
-                                                   io.KeyCtrl ? double(e.view.snap_move) : 0);
+            const glm::dvec3 along(drag.current[3]);
+            const glm::dvec3 free =
+                drag.path.update(io.KeyAlt, mouse_of(e), along, io.KeyCtrl ? double(e.view.snap_move) : 0);
+            glm::dvec3 by = free;
+            for (int i = 0; i < 3; ++i) // a handle of two axes does not snap
+                if (const glm::dvec3 axis(drag.frame[i]); std::abs(glm::dot(along, axis)) > 0.999 * glm::length(along))
+                    by = snapped(e, drag, free, mouse_of(e).ray, axis);
             ask_drag(e, drag, glm::translate(glm::dmat4(1), by), "Move");
         } else {
             ask_drag(e, drag, there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there),
@@ -149,6 +156,7 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
         drag.active = false;
         e.end_gesture();
     }
+    draw_snapping(e, drag);
     state.wants_mouse = ImGuizmo::IsUsing() || (ImGuizmo::IsOver() && !state.knob);
     return state;
 }

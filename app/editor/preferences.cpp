@@ -5,13 +5,21 @@
 #include "base/json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace restage::editor {
 
 namespace {
 
 std::filesystem::path file_in(const std::filesystem::path& config_dir) { return config_dir / "preferences.json"; }
+
+std::array<std::pair<const char*, bool*>, 4> snap_targets(SnapTo& to) {
+    return {{{"grid", &to.grid}, {"vertex", &to.vertex}, {"surface", &to.surface}, {"wall", &to.wall}}};
+}
 
 } // namespace
 
@@ -33,6 +41,9 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     step("snap_move", preferences.snap_move, 1e6f);
     step("snap_angle", preferences.snap_angle, 180);
     step("snap_scale", preferences.snap_scale, 100);
+    if (const auto to = j.find("snap_to"); to != j.end() && to->is_array())
+        for (const auto& [name, on] : snap_targets(preferences.snap_to))
+            *on = std::ranges::find(*to, name) != to->end();
     if (const auto most = j.find("history_mib"); most != j.end() && most->is_number_integer())
         preferences.history_mib = std::clamp(most->get<int>(), 16, 65536);
     if (const auto name = j.find("denoiser"); name != j.end() && name->is_string()) preferences.denoiser = *name;
@@ -41,6 +52,10 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
 
 void write_preferences(const std::filesystem::path& config_dir, const Preferences& preferences) {
     if (config_dir.empty()) return;
+    std::vector<std::string> to;
+    SnapTo snap_to = preferences.snap_to;
+    for (const auto& [name, on] : snap_targets(snap_to))
+        if (*on) to.emplace_back(name);
     const nlohmann::json j{{"hint_seen", preferences.hint_seen},
                            {"whole_things", preferences.whole_things},
                            {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
@@ -48,6 +63,7 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
                            {"snap_move", preferences.snap_move},
                            {"snap_angle", preferences.snap_angle},
                            {"snap_scale", preferences.snap_scale},
+                           {"snap_to", to},
                            {"history_mib", preferences.history_mib},
                            {"denoiser", preferences.denoiser}};
     // Failing to save preferences is not worth a message.

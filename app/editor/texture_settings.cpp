@@ -4,13 +4,18 @@
 #include "contexts.hpp"
 #include "model/texture.hpp"
 #include "panels/state.hpp"
+#include "place_texture.hpp"
 #include "plugin/registry.hpp"
+#include "project_texture.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <cmath>
 #include <filesystem>
+#include <span>
+#include <utility>
 
 namespace restage::editor {
 
@@ -104,6 +109,30 @@ void param_row(EditContext& e, TextureId id, const scene::Texture& texture, cons
     carry_out(e, slot, ask, fmt::format("texture.{}.{}", id.value, line.id));
 }
 
+// Its place on the surface: the tool in the picture, and its direction in figures.
+void place_rows(EditContext& e, TextureId id, const scene::Texture& texture, const std::string& mark) {
+    form_row("Place", "Where it is on the surface");
+    if (ImGui::Button("In the picture", {ImGui::CalcItemWidth(), 0})) ask_to_place(e, id);
+    tip("A frame on the object moves, turns and scales it");
+    e.mark(mark + ".place");
+    const scene::TextureMap map = scene::texture_map(texture.params);
+    float turn = float(scene::turn_of(map));
+    form_row("Turn", "Of the texture in its coordinates, about the middle of them");
+    if (ImGui::DragFloat("##turn", &turn, 0.5f, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp))
+        e.edit(
+            [id, turn](const scene::Scene& s) -> Result<scene::Edit> {
+                const scene::Texture* now = s.textures.find(id);
+                if (!now) return fail("the texture no longer exists");
+                const scene::TextureMap before = scene::texture_map(now->params);
+                const double by = glm::radians(double(turn) - scene::turn_of(before));
+                const glm::dmat2 rotation(std::cos(by), std::sin(by), -std::sin(by), std::cos(by));
+                const std::pair after(id, scene::transformed(before, rotation, glm::dvec2(0.5)));
+                return scene::set_texture_maps(s, std::span(&after, 1), "Turn texture " + now->name);
+            },
+            "texture.turn." + std::to_string(id.value));
+    e.mark(mark + ".turn");
+}
+
 std::size_t slots_with(const scene::Scene& scene, TextureId id) {
     std::size_t slots = 0;
     const auto count = [&](const scene::ParamSet& params) {
@@ -115,17 +144,28 @@ std::size_t slots_with(const scene::Scene& scene, TextureId id) {
     return slots;
 }
 
+// On objects without texture coordinates, if it is the texture of a material.
+Result<scene::Edit> projected(DocumentContext& e, const scene::TextureSlot& slot, const scene::Scene& s,
+                              Result<scene::Edit> edit) {
+    const auto* material = std::get_if<scene::Id<scene::Material>>(&slot.of);
+    return material ? project_where_needed(e, s, std::move(edit), *material) : edit;
+}
+
 } // namespace
 
 void carry_out(EditContext& e, const scene::TextureSlot& slot, const ParamAsk& ask, const std::string& gesture) {
     if (!ask.image_file.empty()) // colours are sRGB; heights, normals and roughness are data
-        read_image(
-            e, ask.image_file,
-            slot.value.type == model::ParamType::color && !slot.scalar ? scene::Encoding::srgb
-                                                                       : scene::Encoding::linear,
-            [slot](const scene::Scene& s, scene::Image i) { return scene::set_image_texture(s, slot, std::move(i)); });
+        read_image(e, ask.image_file,
+                   slot.value.type == model::ParamType::color && !slot.scalar ? scene::Encoding::srgb
+                                                                              : scene::Encoding::linear,
+                   [&e, slot](const scene::Scene& s, scene::Image i) {
+                       return projected(e, slot, s, scene::set_image_texture(s, slot, std::move(i)));
+                   });
     if (const auto plugin = e.registry().find_texture(ask.new_texture))
-        e.edit([slot, plugin](const scene::Scene& s) { return scene::new_texture(s, slot, *plugin->table); });
+        e.edit([&e, slot, plugin](const scene::Scene& s) {
+            auto edit = scene::new_texture(s, slot, *plugin->table);
+            return plugin->table->mapped ? projected(e, slot, s, std::move(edit)) : edit;
+        });
     std::visit(
         [&](auto id) {
             if (ask.reset || (ask.value && ask.value->type == model::ParamType::texture && !ask.value->texture))
@@ -164,6 +204,7 @@ void texture_settings(EditContext& e, TextureId id, const std::string& mark) {
         return;
     }
     const model::Texture& table = *plugin->table;
+    if (table.mapped) place_rows(e, id, texture, mark);
     if (table.image) image_rows(e, id, texture, mark + ".image");
     std::vector<const model::Param*> advanced;
     const auto row = [&](const model::Param& line, bool folded) {

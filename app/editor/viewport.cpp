@@ -7,6 +7,7 @@
 #include "panel_context.hpp"
 #include "panels/panels.hpp"
 #include "panels/state.hpp"
+#include "path_tool.hpp"
 #include "pick_tool.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
@@ -58,7 +59,7 @@ void Viewport::draw(PanelContext& e) {
         if (outline_.ready()) draw->AddImage(outline_.ref(), corner, end);
         draw_grid(e);
         draw_overlays(e);
-        if (!measurement.on) gizmo = draw_gizmo(e, corner, size);
+        if (!measurement.on && !placing.on && !e.panel_state->arrange.drawing) gizmo = draw_gizmo(e, corner, size);
         if (cone_held_) gizmo.wants_mouse = true;
     }
     draw_comparison(e, corner, size);
@@ -228,6 +229,8 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
     if (run_pick_tool(e, over && navigation_ == Navigation::none)) return;
     if (run_measuring(e, over && navigation_ == Navigation::none)) return;
     if (run_region(e, over && navigation_ == Navigation::none)) return;
+    if (run_placing(e, over && navigation_ == Navigation::none)) return;
+    if (run_path_tool(e, over && navigation_ == Navigation::none)) return;
     if (over) e.hovered = free ? pickable(instance_at(e, io.MousePos)) : InstanceId{};
 
     if (free && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {

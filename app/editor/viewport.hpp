@@ -6,6 +6,7 @@
 #include "drag.hpp"
 #include "gizmo.hpp"
 #include "measure_tool.hpp"
+#include "place_texture.hpp"
 #include "region_tool.hpp"
 #include "selection.hpp"
 #include "texture.hpp"
@@ -31,6 +32,7 @@ class Viewport {
     Drag gizmo_drag; // of the handles
     Measurement measurement;
     RenderRegion region;
+    TexturePlacing placing;
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
     // The object visible there in the shown picture; none outside.

@@ -8,6 +8,7 @@
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
 #include "scene/edits.hpp"
+#include "snap_drag.hpp"
 #include "theme.hpp"
 #include "viewport.hpp"
 
@@ -39,7 +40,9 @@ void Viewport::start_sliding(PanelContext& e, ImVec2 screen) {
                                          [&](InstanceId id) { return !e.selection.contains(id); });
     if (hits.empty() && !on_knob_) return;
     begin_drag(e, slide_, ImGui::GetIO().KeyShift);
-    slide_.path.begin(hits.empty() ? gizmo_drag.pivot : hits[0].position, e.up(), mouse, false);
+    const glm::dvec3 at = hits.empty() ? gizmo_drag.pivot : hits[0].position;
+    slide_.path.begin(at, e.up(), mouse, false);
+    begin_snapping(e, slide_, at, mouse.ray);
 }
 
 void Viewport::slide(PanelContext& e) {
@@ -49,17 +52,24 @@ void Viewport::slide(PanelContext& e) {
         e.end_gesture();
         return;
     }
-    const glm::dvec3 by = slide_.path.update(io.KeyAlt, mouse_at(e, *this, io.MousePos), std::nullopt,
-                                             io.KeyCtrl ? double(e.view.snap_move) : 0);
+    const DragPath::Mouse mouse = mouse_at(e, *this, io.MousePos);
+    const glm::dvec3 free =
+        slide_.path.update(io.KeyAlt, mouse, std::nullopt, io.KeyCtrl ? double(e.view.snap_move) : 0);
+    const glm::dvec3 by = snapped(e, slide_, free, mouse.ray, std::nullopt);
     ask_drag(e, slide_, glm::translate(glm::dmat4(1), by), "Move");
+    draw_snapping(e, slide_);
 }
 
-bool Viewport::dragging() const { return slide_.active || gizmo_drag.active || boxing_ || sticking_ || cone_held_; }
+bool Viewport::dragging() const {
+    return slide_.active || gizmo_drag.active || boxing_ || sticking_ || cone_held_ ||
+           placing.held != TexturePlacing::Hold::none;
+}
 
 void Viewport::cancel(PanelContext& e) {
     cancel_drag(e, slide_);
     cancel_drag(e, gizmo_drag);
     if (sticking_ || cone_held_) e.change([](document::Session& session) { session.cancel_gesture(); });
+    cancel_placing(e);
     release_gizmo();
     pressed_ = boxing_ = sticking_ = on_knob_ = false;
     if (std::exchange(cone_held_, false)) ImGui::ClearActiveID();

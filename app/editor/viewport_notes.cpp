@@ -8,6 +8,7 @@
 #include "panels/scene_panel.hpp"
 #include "panels/state.hpp"
 #include "scene_pictures.hpp"
+#include "snap_drag.hpp"
 #include "theme.hpp"
 #include "tour.hpp"
 #include "view/live_view.hpp"
@@ -67,6 +68,8 @@ void Viewport::draw_toolbar(PanelContext& e) {
     tip("Step sizes of drags with Ctrl");
     e.mark("toolbar.steps");
     draw_steps(e);
+    next(ImGui::CalcTextSize("Snap").x + 2 * ImGui::GetStyle().FramePadding.x, true);
+    snap_button(e);
     const std::string missing = e.live().denoiser_missing();
     ImGui::BeginDisabled(!missing.empty());
     button("view.denoise", "Denoise");

@@ -10,9 +10,10 @@
 namespace restage::query {
 
 std::optional<SurfacePoint> surface_point(const scene::Scene& scene, const scene::Camera& camera, glm::dvec2 film,
-                                          double aspect, double snap) {
+                                          double aspect, double snap,
+                                          const std::function<bool(scene::Id<scene::Instance>)>& skip) {
     const ViewRay ray = view_ray(camera, film, aspect);
-    const auto hits = raycast_all(scene, ray.origin, ray.direction);
+    const auto hits = raycast_all(scene, ray.origin, ray.direction, skip);
     if (hits.empty()) return std::nullopt;
     SurfacePoint found{hits[0].instance, hits[0].position};
     const scene::Instance& instance = scene.instances[found.instance];

@@ -4,6 +4,7 @@
 
 #include "scene/scene.hpp"
 
+#include <functional>
 #include <optional>
 
 namespace restage::query {
@@ -15,9 +16,11 @@ struct SurfacePoint {
 };
 
 // The surface seen at a point of the film ((0,0) top left, (1,1) bottom right); none: nothing is there. A vertex of
-// that object nearer than `snap`, in heights of the film, is returned instead, unless it is behind the surface.
+// that object nearer than `snap`, in heights of the film, is returned instead, unless it is behind the surface. Objects
+// of `skip` are not seen.
 std::optional<SurfacePoint> surface_point(const scene::Scene&, const scene::Camera&, glm::dvec2 film, double aspect,
-                                          double snap);
+                                          double snap,
+                                          const std::function<bool(scene::Id<scene::Instance>)>& skip = {});
 
 // 1, 2 or 5 times a power of ten: about a twentieth of `extent` (> 0), for the lines of a grid.
 double grid_step(double extent);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/raycast.hpp"
 
+#include "query/triangle_hit.hpp"
 #include "scene/bounds.hpp"
 #include "scene/quadric_hit.hpp"
 
@@ -24,21 +25,6 @@ bool hits_box(const glm::dvec3& lower, const glm::dvec3& upper, const glm::dvec3
         far = std::min(far, std::max(a, b));
     }
     return near <= far;
-}
-
-// Moeller and Trumbore 1997, double-sided.
-double hit_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& o,
-                    const glm::dvec3& d) {
-    const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(d, ac);
-    const double det = glm::dot(ab, p);
-    if (det == 0) return -1;
-    const glm::dvec3 s = o - a;
-    const double u = glm::dot(s, p) / det;
-    if (u < 0 || u > 1) return -1;
-    const glm::dvec3 q = glm::cross(s, ab);
-    const double v = glm::dot(d, q) / det;
-    if (v < 0 || u + v > 1) return -1;
-    return glm::dot(ac, q) / det;
 }
 
 } // namespace
@@ -72,7 +58,7 @@ std::vector<RayHit> raycast_all(const scene::Scene& scene, const glm::dvec3& ori
         }
         glm::uvec3 which(0);
         for (const glm::uvec3& t : data.triangles) {
-            const double hit = hit_triangle(data.positions[t.x], data.positions[t.y], data.positions[t.z], o, d);
+            const double hit = hit_triangle(data.positions[t.x], data.positions[t.y], data.positions[t.z], o, d).t;
             if (hit > 0 && hit < nearest) {
                 nearest = hit;
                 which = t;

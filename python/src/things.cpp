@@ -4,9 +4,14 @@
 
 #include "query/support.hpp"
 #include "scene/arrange.hpp"
+#include "scene/box_projection.hpp"
+#include "scene/path_array.hpp"
 
+#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
+#include <vector>
 
 namespace restage::python {
 
@@ -189,6 +194,33 @@ void bind_verbs(nb::class_<C>& c) {
             "than 360 degrees: an arc from the first to the last. turn=False: all keep their direction. Returns the "
             "copies, one step of undo.")
         .def(
+            "array_along",
+            [](const C& self, const std::vector<Three>& points, std::optional<int> count, std::optional<double> spacing,
+               bool smooth, bool turn) {
+                if (count.has_value() == spacing.has_value())
+                    throw Failure("array_along: give either count or spacing");
+                if (spacing && !(*spacing > 0)) throw Failure("array_along: spacing is not above 0");
+                const Objects ids = objects_of(self);
+                const glm::dvec3 up = self.in->up();
+                const Bounds box = bounds_of(*self.in, ids);
+                std::vector<glm::dvec3> path{box.center() - up * (0.5 * std::abs(glm::dot(box.size(), up)))};
+                for (const Three& p : points) {
+                    path.push_back(vec(p));
+                    if (!std::isfinite(p[0] + p[1] + p[2])) throw Failure("array_along: a point is not finite");
+                }
+                return copies_at(self.in, ids,
+                                 path_array(path_through(path, smooth), {.count = at_least_one(count.value_or(1)),
+                                                                         .spacing = spacing.value_or(0),
+                                                                         .up = up,
+                                                                         .turn = turn}));
+            },
+            "points"_a, "count"_a = nb::none(), "spacing"_a = nb::none(), "smooth"_a = true, "turn"_a = true,
+            "Copies along a path, from the middle of its underside through these points: array (n, 3). Either `count`, "
+            "with "
+            "the original, to the last point, or `spacing` along the path [scene units]. smooth: a curve, else "
+            "straight "
+            "pieces; turn: copies turn with the path about the scene's up. Returns the copies, one step of undo.")
+        .def(
             "remove", [](const C& self) { self.in->edit(remove_instances(self.in->scene(), objects_of(self))); },
             "Removes it from the scene. Its meshes and materials stay: see Session.remove_unused.")
         .def(
@@ -198,6 +230,18 @@ void bind_verbs(nb::class_<C>& c) {
                 self.in->edit(set_material(self.in->scene(), objects_of(self), material.id));
             },
             "material"_a, "Gives all its objects this material.")
+        .def(
+            "project_texture",
+            [](const C& self, double size, const std::string& axes) {
+                if (axes != "object" && axes != "world")
+                    throw Failure("project_texture: axes is \"" + axes + "\"; it must be object or world");
+                self.in->edit(take(project_box(self.in->scene(), objects_of(self),
+                                               {.size = size, .world_axes = axes == "world", .up = self.in->up()})));
+            },
+            "size"_a = 1.0, "axes"_a = "object",
+            "Texture coordinates by box projection: each triangle is seen along the axis its normal is nearest to. "
+            "size: of one repetition of a texture [scene units]; axes: \"object\" or \"world\". Other objects keep "
+            "the mesh as it was.")
         .def(
             "make_unique",
             [](const C& self, const Handle<Material>& material) {

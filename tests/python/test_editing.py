@@ -116,6 +116,13 @@ def test_things_are_mirrored_and_repeated(demo):
     assert np.allclose(ring.objects[0].transform[:3, :3], [[0, -1, 0], [1, 0, 0], [0, 0, 1]] @ chair.objects[0].transform[:3, :3])
     straight = chair.array_around(2, center=(0, 0, 0), axis=(0, 0, 1), degrees=90, turn=False)
     assert np.allclose(straight.center, (-chair.center[1], chair.center[0], chair.center[2]))
+    start = chair.bounds.mean(0) * (1, 1, 0) + chair.bounds[0] * (0, 0, 1)
+    along = chair.array_along([start + (2, 0, 0), start + (2, 2, 0)], count=3, smooth=False)
+    assert np.allclose(along.objects[0].transform[:3, 3] - chair.objects[0].transform[:3, 3], (2, 0, 0))
+    assert len(chair.array_along([start + (2, 0, 0)], spacing=0.5, turn=False)) == 4 * len(chair.objects)
+    for wrong in {}, {"count": 2, "spacing": 1.0}, {"spacing": 0.0}, {"count": 0}:
+        with pytest.raises(restage.Error):
+            chair.array_along([start + (2, 0, 0)], **wrong)
     with pytest.raises(restage.Error, match="count is 0"):
         chair.array(0, by=(1, 0, 0))
     with pytest.raises(restage.Error, match="most is 100000"):

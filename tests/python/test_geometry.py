@@ -33,6 +33,18 @@ def test_a_mesh_goes_in_and_comes_out_as_arrays(session):
     assert "Mesh" not in [m.name for m in session.materials]
 
 
+def test_texture_coordinates_are_projected(session):
+    sheet = session.add_mesh([[0, 0, 0], [2, 0, 0], [0, 3, 0]], [[0, 1, 2]], transform=np.diag([2, 1, 1, 1]))
+    other = sheet.duplicate()
+    sheet.project_texture(0.5)
+    assert np.allclose(sheet.uvs, [[0, 0], [8, 0], [0, 6]])  # lengths in the world over the size
+    assert other.uvs is None
+    with pytest.raises(restage.Error, match="above 0"):
+        sheet.project_texture(0)
+    with pytest.raises(restage.Error, match="object or world"):
+        sheet.project_texture(axes="own")
+
+
 @pytest.mark.parametrize("positions, triangles, more, says", [
     ([[0, 0, 0]], [[0, 0, 1]], {}, "refers to vertex 1 of 1"),
     ([[0, 0, 0]], [[0, 0, -1]], {}, "refers to vertex -1"),

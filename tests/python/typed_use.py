@@ -35,6 +35,8 @@ def use(folder: pathlib.Path) -> None:
         copy.mirror("x", at=1)
         row: restage.Selection = copy.array(3, by=(1, 0, 0))
         row.array_around(2, np.zeros(3), degrees=90, turn=False).remove()
+        sheet.project_texture(0.5, axes="world")
+        row.array_along([(1, 0, 0), np.ones(3)], spacing=0.5, smooth=False).remove()
         group = session.add_group([sheet, copy], "Pair")
         found: restage.Group | restage.Object = session.find("Pair")
         session.select(found, sheet).hidden = True

@@ -138,7 +138,7 @@ class Screens:
         if not self.editor or self.editor.process.poll() is not None:
             return
         self.rest()
-        self.desk.xdotool("mouseup", 1)
+        self.desk.xdotool("mouseup", 1, "keyup", "shift")
         for _ in range(3):
             self.editor.key("Escape")
             if not self.editor.state()["modal"]:
@@ -373,6 +373,77 @@ def arrange_array(s):
     s.editor.wait(lambda t: "array.keep" in t["marks"], "the array")
     s.rest()
     s.editor.settled(samples=8, seconds=240)
+
+
+@state
+def arrange_path(s):
+    s.stop()
+    s.start(DEMO)
+    s.select("Vase")
+    s.editor.key("ctrl+shift+a")
+    s.editor.click("array.kind")
+    s.editor.click("array.kind.3")
+    s.editor.click("array.draw")
+    for point in (("picture", 0.25, 0.8), ("picture", 0.5, 0.93), ("picture", 0.8, 0.85)):
+        s.editor.move(point)
+        s.editor.click(point)
+    s.editor.settled(samples=2, seconds=240)
+    s.editor.move(("picture", 0.85, 0.75))
+    time.sleep(0.5)
+
+
+@state
+def placing_a_texture(s):
+    s.stop()
+    s.start(DEMO)
+    s.select("Floor")
+    s.editor.key("p")
+    s.editor.wait(lambda t: "placing.middle" in t["marks"], "the frame")
+    s.rest()
+
+
+@state
+def turning_a_texture(s):
+    placing_a_texture(s)
+    ring = s.editor.point("placing.ring")
+    s.editor.move("placing.ring")
+    s.desk.xdotool("keydown", "shift", "mousedown", 1)
+    for i in range(1, 6):
+        s.desk.xdotool("mousemove", ring[0] - 25 * i, ring[1] + 6 * i)
+        time.sleep(0.1)
+    s.editor.settled(samples=2, seconds=240)
+
+
+@state
+def projecting_a_texture(s):
+    s.stop()
+    s.start(ROOT / "scenes/cornell/cornell.pbrt")
+    s.select("Floor")
+    s.editor.key("ctrl+p")
+    s.editor.type("project texture")
+    time.sleep(1)  # until it is found
+    s.editor.key("Return")
+    s.editor.wait(lambda t: t["modal"] == "Project texture", "the dialog")
+    s.rest()
+
+
+@state
+def snapping(s):
+    s.stop()
+    s.start(DEMO)
+    s.select("Vase")
+    s.editor.click("toolbar.snap")
+    for target in ("grid", "surface", "wall"):
+        s.editor.click("snap." + target)
+    s.editor.key("Escape")
+    s.select("Vase")
+    start = s.editor.point("gizmo.center")
+    s.editor.move("gizmo.center")
+    s.desk.xdotool("mousedown", 1)
+    for i in range(1, 9):
+        s.desk.xdotool("mousemove", start[0] + 14 * i, start[1] + 5 * i)
+        time.sleep(0.1)
+    time.sleep(0.5)
 
 
 @state

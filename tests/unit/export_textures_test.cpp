@@ -5,6 +5,7 @@
 #include "io/import.hpp"
 #include "plugin/texture_source.hpp"
 
+#include <catch2/catch_approx.hpp>
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <fstream>
@@ -251,5 +252,11 @@ TEST_CASE("losses of textures in pbrt are reported", "[export]") {
     CHECK_THAT(said["texture \"made bilerp\""], ContainsSubstring("second texture coordinates"));
     CHECK_THAT(said["texture \"made imagemap\""], ContainsSubstring("has no image"));
     CHECK_THAT(said["texture \"made fbm\""], ContainsSubstring("in a plane"));
-    CHECK(io::import_scene(folder.file("out.pbrt"), plugins.registry));
+    const auto back = io::import_scene(folder.file("out.pbrt"), plugins.registry);
+    REQUIRE(back);
+    const auto turned = find_by_name<Texture>(back->scene, "made checkerboard");
+    REQUIRE(turned);
+    const ParamSet& params = back->scene.textures[turned].params;
+    CHECK(params.number("uscale", 0) == Catch::Approx(std::hypot(3, 1))); // as many repetitions as along s
+    CHECK(params.number("vscale", 0) == Catch::Approx(5));
 }

@@ -3,6 +3,7 @@
 #include "actions.hpp"
 #include "arrange.hpp"
 #include "panels.hpp"
+#include "path_tool.hpp"
 #include "state.hpp"
 #include "theme.hpp"
 #include "widgets.hpp"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace restage::editor {
 
@@ -157,6 +159,38 @@ bool circle_rows(SelectContext& e, double speed) {
     return changed;
 }
 
+bool path_rows(SelectContext& e, double speed) {
+    ArrangeState& state = e.panel_state->arrange;
+    ArrangeState::Array& a = state.array;
+    bool changed = false;
+    form_row("Path", "From the selection through points clicked on surfaces in the picture");
+    const std::string label = a.path.empty() ? "Draw it..." : fmt::format("Draw again ({} points)", a.path.size());
+    ImGui::BeginDisabled(state.drawing);
+    if (ImGui::Button((label + "###draw").c_str(), {ImGui::CalcItemWidth(), 0})) begin_path(e);
+    ImGui::EndDisabled();
+    e.mark("array.draw");
+    form_row("Smooth", "A curve through the points; else straight pieces");
+    changed |= ImGui::Checkbox("##smooth", &a.smooth);
+    e.mark("array.smooth");
+    form_row("Turn", "Copies turn with the path; else all have the same direction");
+    changed |= ImGui::Checkbox("##turn", &a.turn);
+    e.mark("array.turn");
+    static constexpr const char* ways[] = {"Number", "Distance"};
+    int way = a.by_spacing ? 1 : 0;
+    changed |= choice(e, "array.by", "By", "What determines how many there are", ways, way);
+    a.by_spacing = way == 1;
+    if (!a.by_spacing) {
+        form_row("Number", "With the original");
+        return whole(e, "array.count", &a.count, 1, 1000) || changed;
+    }
+    form_row("Distance", "From one to the next along the path, in scene units");
+    const double least = 1e-6, most = 1e9;
+    changed |= ImGui::DragScalar("##spacing", ImGuiDataType_Double, &a.path_spacing, float(speed), &least, &most,
+                                 "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    e.mark("array.path_spacing");
+    return changed;
+}
+
 bool array_rows(SelectContext& e) {
     ArrangeState::Array& a = e.panel_state->arrange.array;
     const scene::Bounds box = e.selection.bounds(e.scene());
@@ -168,6 +202,7 @@ bool array_rows(SelectContext& e) {
         form_row("Distance", "From one to the next along x, y and z");
         return three(e, "array.spacing", a.spacing, speed) || changed;
     }
+    if (a.kind == ArrayKind::path) return path_rows(e, speed);
     form_row("Number", "With the original");
     changed |= whole(e, "array.count", &a.count, 1, 1000);
     if (a.kind == ArrayKind::circle) return circle_rows(e, speed) || changed;
@@ -189,7 +224,7 @@ void array_section(SelectContext& e) {
     if (!open) return;
     if (e.selection.instances().empty()) {
         a.asked = false;
-        return empty_note("Select objects to repeat them in a line, a circle or a grid.");
+        return empty_note("Select objects to repeat them in a line, a circle, a grid or along a path.");
     }
     if (a.drawn < 0) suit_array(e); // at first
     a.drawn = ImGui::GetFrameCount();
@@ -199,13 +234,15 @@ void array_section(SelectContext& e) {
         if (ImGui::IsWindowAppearing()) ImGui::SetScrollHereY(0);
         changed = true;
     }
-    static constexpr const char* kinds[] = {"Line", "Circle", "Grid"};
+    static constexpr const char* kinds[] = {"Line", "Circle", "Grid", "Path"};
     int kind = int(a.array.kind);
     changed |= choice(e, "array.kind", "Shape", "How the copies stand", kinds, kind) && live;
     a.array.kind = ArrayKind(kind);
     changed |= array_rows(e) && live;
     if (!live) a.problem.clear();
     if (!a.problem.empty()) error_note(a.problem.c_str());
+    const bool enter = ImGui::IsKeyPressed(ImGuiKey_Enter, false) && !ImGui::GetIO().WantTextInput;
+    const bool ends_drawing = enter && std::exchange(a.drawing, false);
     if (live) {
         if (flow_button("Keep", true)) keep_array(e);
         tip("Enter: one undo step, and all of it is selected");
@@ -216,8 +253,8 @@ void array_section(SelectContext& e) {
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         ImGui::TextColored(colors::dim, "%zu copies", a.live->copies.size());
-        if (ImGui::IsKeyPressed(ImGuiKey_Enter, false) && !ImGui::GetIO().WantTextInput) keep_array(e);
-    } else {
+        if (enter && !ends_drawing) keep_array(e);
+    } else if (a.array.kind != ArrayKind::path || !a.array.path.empty()) {
         changed |= flow_button("Make", true);
         tip("Shows it at once; its numbers can then be changed until it is kept");
         e.mark("array.make");

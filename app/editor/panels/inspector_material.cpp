@@ -9,6 +9,7 @@
 #include "param_widget.hpp"
 #include "pick_tool.hpp"
 #include "plugin/registry.hpp"
+#include "project_texture.hpp"
 #include "scene/edits_texture.hpp"
 #include "scene/merge.hpp"
 #include "state.hpp"
@@ -243,9 +244,10 @@ void give_image(EditContext& e, const MaterialScope& scope, const std::string& p
                                 .path = path,
                                 .encoding = scene::Encoding::srgb,
                                 .data = *pixels};
-             e.edit([scope, param, image](const scene::Scene& s) {
+             e.edit([&e, scope, param, image](const scene::Scene& s) {
                  return edit_in_scope(s, scope, [&](const scene::Scene& now, MaterialId id) {
-                     return scene::set_image_texture(now, id, param, model::ParamType::color, false, image);
+                     return project_where_needed(
+                         e, now, scene::set_image_texture(now, id, param, model::ParamType::color, false, image), id);
                  });
              });
          }});
@@ -315,6 +317,7 @@ void material_section(SelectContext& e, MaterialId id) {
         return;
     }
     sharing(e, id);
+    missing_uv_note(e);
     std::string name = material->name;
     form_row("Name", "The material's name");
     if (name_field("##name", name)) e.edit([id, name](const scene::Scene& s) { return scene::rename(s, id, name); });

@@ -191,6 +191,7 @@ struct PanelState {
     ImportState importing;
     std::size_t history_seen = 0;
     int history_mib = 0; // while it is typed
+    scene::Id<scene::Texture> texture_to_place; // asked for by its row (place_texture.hpp)
     std::string texture_search; // in popups for choosing an image
     std::pair<std::string, std::string> image_choice; // the mark that asked for an image file, and the file
 };

@@ -175,9 +175,20 @@ std::string Exporter::placing(const Values& values, const std::string& imported,
 
 // uscale and so on; or the kinds of mapping that are not rendered here.
 void Exporter::put_mapping(Params& params, const Values& values, const std::string& what) {
-    for (const auto& [id, otherwise] : {std::pair{"uscale", 1.f}, {"vscale", 1.f}, {"udelta", 0.f}, {"vdelta", 0.f}})
-        if (const float value = values.number(id, otherwise); value != otherwise) params.add_float(id, value);
-    if (values.number("ushear", 0) != 0 || values.number("vshear", 0) != 0)
+    const float ushear = values.number("ushear", 0), vshear = values.number("vshear", 0);
+    const auto put = [&](const char* id, float value, float otherwise) {
+        if (value != otherwise) params.add_float(id, value);
+    };
+    // As many repetitions as along the rotated directions.
+    const auto scale = [&](const char* id, float shear) {
+        const float value = values.number(id, 1);
+        return shear == 0 ? value : std::copysign(std::hypot(value, shear), value);
+    };
+    put("uscale", scale("uscale", ushear), 1);
+    put("vscale", scale("vscale", vshear), 1);
+    put("udelta", values.number("udelta", 0), 0);
+    put("vdelta", values.number("vdelta", 0), 0);
+    if (ushear != 0 || vshear != 0)
         approximated(
             what, "it is rotated on the surface, but pbrt's mapping only scales and shifts; the rotation is dropped");
     if (values.number("uvset", 0) == 1)
