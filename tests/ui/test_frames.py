@@ -35,13 +35,15 @@ def middle(state):
 
 def test_no_interaction_shows_a_black_noisy_or_old_picture(launch):
     editor = launch(SCENES / "demo/demo.pbrt")
-    editor.settled(samples=4)
+    editor.settled(samples=2)
 
     def another_scene():
         x, y = editor.point(("picture", 0.5, 0.5))
         partial = pathlib.Path(f"{editor.probe}.partial")
         partial.write_text(f"drop {SCENES / 'spheres/spheres.pbrt'} {x} {y}\n")
         partial.rename(f"{editor.probe}.in")
+        editor.wait(lambda s: s["modal"], "the question about changes")
+        editor.click("unsaved.discard")
         editor.wait(lambda s: "spheres" in s["path"] and not s["opening"], "the other scene", 60)
 
     interactions = {
@@ -57,10 +59,10 @@ def test_no_interaction_shows_a_black_noisy_or_old_picture(launch):
         "another scene": another_scene,
     }
     for name, act in interactions.items():
-        before = editor.settled(samples=4)
+        before = editor.settled(samples=2)
         recorder = Recorder(editor.desk, per_second=20, crop=middle(before))
         act()
-        after = editor.settled(samples=4)
+        after = editor.settled(samples=2)
         editor.wait(lambda s: s["latency"]["nframes"] >= after["latency"]["nframes"] + 2, "two more frames")
         recorder.stop()
         seen = [picture for _, picture in recorder.pictures]
