@@ -62,12 +62,13 @@ class EmbreeTracer final : public Tracer {
         const auto start = Clock::now();
         learning_ = false;
         bool going = true;
-        if (scene.features().caustics && !caustics_.started()) {
+        if (!caustics_.started()) {
             const bool all = scene.all_caustics();
-            if (request.provisional && !all && !caustics_.active()) {
-                RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
-            } else {
+            const bool wanted = scene.features().caustics;
+            if (wanted && (all || caustics_.active() || !request.provisional)) {
                 RESTAGE_TRY(going, look_for_caustics(scene, film, request));
+            } else if (wanted || caustics_.address()) { // kernels made when they were wanted may still run
+                RESTAGE_CHECK(caustics_.start(scene, std::vector<char>(scene.instances().size()), all));
             }
         }
         if (going) {
@@ -299,7 +300,7 @@ class EmbreeTracer final : public Tracer {
             RESTAGE_CHECK(memory_.create_fourths(c_.device));
             f.fourths = memory_.fourth_buffer.address();
         }
-        if (scene.features().caustics) f.photons = caustics_.address();
+        f.photons = caustics_.address();
         f.queue = memory_.queue_buffer.address();
         f.counters = memory_.counters.address();
         RESTAGE_CHECK(c_.device.upload(frame_, 0, std::as_bytes(std::span(&f, 1))));

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace restage::render {
@@ -126,10 +127,16 @@ Result<void> GpuScene::sync_meshes(const Scene& scene, SceneChanges& changes) {
         g.version = scene.meshes.version(id);
         g.quadric = scene::quadric_of(*mesh);
         if (g.quadric) {
-            const shared::QuadricData q = quadric_data(*g.quadric);
-            RESTAGE_TRY(g.buffer, device_->create_buffer(sizeof q, gpu::BufferKind::host, mesh->name.c_str()));
-            RESTAGE_CHECK(device_->upload(g.buffer, 0, std::as_bytes(std::span(&q, 1))));
+            // A shader made before the scene had quadrics takes it for a triangle until its successor is compiled: it
+            // finds one, of whatever the record holds.
+            const struct {
+                shared::QuadricData quadric;
+                std::uint32_t unused[2], corners[4];
+            } record{quadric_data(*g.quadric), {}, {0, 1, 2, 0}};
+            RESTAGE_TRY(g.buffer, device_->create_buffer(sizeof record, gpu::BufferKind::host, mesh->name.c_str()));
+            RESTAGE_CHECK(device_->upload(g.buffer, 0, std::as_bytes(std::span(&record, 1))));
             g.positions = g.buffer.address();
+            g.indices = g.positions + offsetof(decltype(record), corners);
             meshes_[i] = std::move(g);
             mesh_data_[i] = mesh->data;
             changes.meshes.push_back(id);

@@ -44,6 +44,13 @@ struct Ball : SceneBuilder {
         scene.instances.set(ball, i, ++scene.clock);
     }
 };
+scene::Id<scene::Mesh> round(SceneBuilder& b) { // an analytic sphere
+    const auto id = b.sphere(12, 24);
+    scene::Mesh mesh = b.scene.meshes[id];
+    mesh.primitive = "sphere \"float radius\" 1";
+    b.scene.meshes.set(id, mesh, ++b.scene.clock);
+    return id;
+}
 scene::Id<scene::Material> red(SceneBuilder& b) { return b.diffuse(0.8f, 0.1f, 0.1f); }
 
 void trace(render::Renderer& renderer, std::uint32_t samples) {
@@ -180,6 +187,38 @@ TEST_CASE("a material hit by only one path in many samples is compiled, too") {
         REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::minutes(3));
     }
     CHECK(renderer->samples() == 1); // restarted, without the stand-in
+}
+
+TEST_CASE("what a scene has for the first time, or no longer, does no harm to shaders that were made before") {
+    const bool appears = GENERATE(true, false);
+    Ball b(red);
+    scene::Light lamp; // photons would carry its light off a mirror
+    lamp.kind = scene::LightKind::point;
+    lamp.value = glm::vec3(3);
+    lamp.light_to_world = glm::translate(glm::dmat4(1), glm::dvec3(2, -2, 3));
+    b.light(lamp);
+    // A sphere that is no mesh, of a material that has its shader; a mirror.
+    const auto inserted = appears
+                              ? b.instance(round(b), b.scene.instances[b.ball].material, placed({1.2, -1, 0.5}, 0.5))
+                              : b.instance(cube(b), b.material("mirror"), placed({-2, 0, 0.5}, 0.5));
+    const scene::Instance one = b.scene.instances[inserted];
+    const auto change = [&](bool there) {
+        if (there)
+            b.scene.instances.set(inserted, one, ++b.scene.clock);
+        else
+            b.scene.instances.set(inserted, std::nullopt, ++b.scene.clock);
+    };
+    if (appears) change(false);
+    const auto renderer = editor("embree", "first_time");
+    sync(*renderer, b.scene);
+    settle(*renderer);
+    change(appears);
+    sync(*renderer, b.scene);
+    REQUIRE(renderer->gpu_scene().features().quadrics == appears);
+    REQUIRE(renderer->gpu_scene().features().caustics == false);
+    trace(*renderer, 2); // with what there was
+    settle(*renderer);
+    CHECK(mean_luminance(renderer->image()).value > 0.1);
 }
 
 TEST_CASE("an undone edit cancels its compilation") {
