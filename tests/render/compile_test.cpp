@@ -190,6 +190,7 @@ TEST_CASE("a material hit by only one path in many samples is compiled, too") {
 }
 
 TEST_CASE("what a scene has for the first time, or no longer, does no harm to shaders that were made before") {
+    const std::string tracer = GENERATE("embree", "vulkan");
     const bool appears = GENERATE(true, false);
     Ball b(red);
     scene::Light lamp; // photons would carry its light off a mirror
@@ -209,7 +210,7 @@ TEST_CASE("what a scene has for the first time, or no longer, does no harm to sh
             b.scene.instances.set(inserted, std::nullopt, ++b.scene.clock);
     };
     if (appears) change(false);
-    const auto renderer = editor("embree", "first_time");
+    const auto renderer = editor(tracer, "first_time_" + tracer);
     sync(*renderer, b.scene);
     settle(*renderer);
     change(appears);
