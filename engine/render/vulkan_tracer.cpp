@@ -246,6 +246,7 @@ class VulkanTracer final : public Tracer {
     }
 
     Result<void> select(const GpuScene& scene) {
+        if (std::exchange(scene_, &scene) != &scene) pipeline_ = nullptr; // with other numbers of texture types
         RESTAGE_TRY(auto made, request(scene, false));
         wanted_ = store_.want("path tracer", std::move(made));
         wanted_types_.clear();
@@ -365,6 +366,7 @@ class VulkanTracer final : public Tracer {
     gpu::Blas box_;
     gpu::Tlas tlas_; // index = InstanceData index
     PipelineStore<gpu::RayTracingPipeline> store_;
+    const void* scene_ = nullptr; // of the last select(), to tell it from another
     std::shared_ptr<const gpu::RayTracingPipeline> pipeline_;
     std::vector<std::string> pipeline_types_; // of its callables
     PipelineStore<gpu::RayTracingPipeline>::EntryPtr wanted_; // nullptr: pipeline_ is up to date

@@ -7,6 +7,7 @@
 #include "shared/wave_data.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace restage::render {
 namespace {
@@ -24,6 +25,7 @@ SceneFeatures all_features(SceneFeatures f) {
 
 Result<void> WaveKernels::select(const GpuScene& scene, KernelUse use) {
     const bool other_colors = features_.spectral != scene.features().spectral; // and other words of values
+    const bool other_scene = std::exchange(scene_, &scene) != &scene; // with other numbers of texture types
     features_ = scene.features();
     if (c_.all_features) features_ = all_features(features_);
     features_.guiding = use.guiding;
@@ -35,8 +37,8 @@ Result<void> WaveKernels::select(const GpuScene& scene, KernelUse use) {
     slots_.resize(types_.size());
     before.resize(types_.size());
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        // Another scene, or a plugin reloaded with a different table
-        if (other_colors || slots_[i].what != types_[i].type ||
+        // Another type, or a plugin reloaded with a different table
+        if (other_colors || other_scene || slots_[i].what != types_[i].type ||
             word_layout(before[i].plugin.table) != word_layout(types_[i].plugin.table))
             slots_[i] = {.what = types_[i].type};
         slots_[i].settled = slots_[i].shown = false;

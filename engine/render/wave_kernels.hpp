@@ -65,6 +65,7 @@ class WaveKernels {
 
     TracerContext c_;
     Store store_;
+    const void* scene_ = nullptr; // of the last select(), to tell it from another
     SceneFeatures features_;
     std::vector<MaterialType> types_;
     TextureTypes texture_types_;

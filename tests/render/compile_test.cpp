@@ -222,6 +222,34 @@ TEST_CASE("what a scene has for the first time, or no longer, does no harm to sh
     CHECK(mean_luminance(renderer->image()).value > 0.1);
 }
 
+TEST_CASE("shaders of a scene do not read the textures of another one") {
+    const std::string tracer = GENERATE("embree", "vulkan");
+    const auto textured = [](Ball& b, std::vector<scene::Texture> textures) {
+        scene::Value value = scene::Value::color(0.5f, 0.5f, 0.5f);
+        for (scene::Texture& texture : textures) {
+            value.texture = b.scene.textures.next();
+            b.scene.textures.set(value.texture, std::move(texture), ++b.scene.clock);
+        }
+        scene::Material floor = b.scene.materials[b.scene.instances[b.ball].material];
+        floor.params.set("reflectance", value);
+        b.scene.materials.set(b.scene.instances[b.ball].material, floor, ++b.scene.clock);
+    };
+    Ball first(red), second(red);
+    const auto grey = first.image(1, 1, 3, {0.5f, 0.5f, 0.5f});
+    textured(first, {scene::Texture{.name = "image", .type = "imagemap", .image = grey}});
+    textured(second, {scene::Texture{.name = "checks", .type = "checkerboard"}});
+    const auto renderer = editor(tracer, "another_scene_" + tracer);
+    sync(*renderer, first.scene);
+    settle(*renderer);
+    renderer->forget_scene();
+    sync(*renderer, second.scene);
+    trace(*renderer, 2);
+    settle(*renderer);
+    renderer->reset();
+    trace(*renderer, 4);
+    check_equal(renderer->image(), render_image(*make_renderer(tracer), second.scene, 4));
+}
+
 TEST_CASE("an undone edit cancels its compilation") {
     const std::string tracer = GENERATE("embree", "vulkan");
     const auto renderer = editor(tracer, "cancel_" + tracer);

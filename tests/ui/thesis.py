@@ -167,7 +167,7 @@ class Hand:
         if "materials.search" not in self.state()["marks"]:
             self.click("tab.Materials")
         self.search("materials.search", name)
-        self.e.wait(lambda s: [m for m in s["marks"] if m.startswith("materials.ball.")] == [f"materials.ball.{name}"], name, 20)
+        self.e.wait(lambda s: f"materials.{name}" in s["marks"] and sum(m.startswith("materials.") and m[10].isupper() for m in s["marks"]) < 6, name)
         before = self.steps()
         self.e.drag(f"materials.{name}", where, steps=12)
         state = self.e.wait(lambda s: s["modal"] or s["history"]["position"] > before, f"{name} given", 20)
@@ -249,10 +249,10 @@ def another_kitchen(hand):
 
 
 def other_materials(hand):
-    hand.preset("Asphalt", ("picture", 0.724, 0.937))
-    hand.preset("Paint, blue", ("picture", 0.13, 0.90))
+    hand.preset("Concrete", ("picture", 0.724, 0.937))
+    hand.preset("Varnished walnut", ("picture", 0.13, 0.90))
     hand.preset("Marble, polished", ("picture", 0.07, 0.786))
-    hand.preset("Marble, polished", ("picture", 0.385, 0.85))
+    hand.preset("Marble, matt", ("picture", 0.385, 0.85))
     hand.preset("Cream", WALL)
 
 
