@@ -150,12 +150,30 @@ class Hand:
         self.e.type(name)
         self.note(f"search {name}", POINT + 2 * BUTTON + HAND + KEY * (len(name) + 2))
 
+    def drag_onto(self, mark, where):
+        """Drags a thing out of a panel onto the picture, and lets it go once the window says what it becomes there."""
+        (x0, y0), (x1, y1) = self.e.point(mark), self.e.point(where)
+        for attempt in range(3):  # a slow window may take the press for something else
+            self.e.move((x0, y0))
+            self.e.desk.xdotool("mousedown", 1)
+            for i in range(1, 13):
+                time.sleep(0.05)
+                self.e.desk.xdotool("mousemove", x0 + (x1 - x0) * i // 12, y0 + (y1 - y0) * i // 12)
+            try:
+                self.e.wait(lambda s: "drop.preview" in s["marks"], "what it becomes", 8)
+                break
+            except AssertionError:
+                if attempt == 2:
+                    raise
+            finally:
+                self.e.desk.xdotool("mouseup", 1)
+
     def part(self, name, at):
         """Finds a part in the Assets panel and drags it to where this point of the scene is seen."""
         self.search("assets.search", name)
         self.e.wait(lambda s: [m for m in s["marks"] if m.startswith("asset.")][:1] == [f"asset.{name}"], name, 20)
         before = self.steps()
-        self.e.drag(f"asset.{name}", ("picture", *self.eye.project(at)), steps=12)
+        self.drag_onto(f"asset.{name}", ("picture", *self.eye.project(at)))
         self.e.wait(lambda s: s["history"]["position"] > before, f"{name} inserted", 30)
         self.note(f"drag {name}", 2 * POINT + 2 * BUTTON)
         off = self.middle() - at
@@ -169,7 +187,7 @@ class Hand:
         self.search("materials.search", name)
         self.e.wait(lambda s: f"materials.{name}" in s["marks"] and sum(m.startswith("materials.") and m[10].isupper() for m in s["marks"]) < 6, name)
         before = self.steps()
-        self.e.drag(f"materials.{name}", where, steps=12)
+        self.drag_onto(f"materials.{name}", where)
         state = self.e.wait(lambda s: s["modal"] or s["history"]["position"] > before, f"{name} given", 20)
         self.note(f"drag {name}", 2 * POINT + 2 * BUTTON)
         if state["modal"]:
