@@ -6,8 +6,8 @@ of a thing, the script reads the editor's state (--probe).
 
     build/venv/bin/python tests/ui/thesis.py RESTAGE SCENES/kitchen/scene.pbrt OUT [kitchen] [materials] [bedroom] [render] [record]
 
-writes before.png, kitchen.png and materials.png (the projects by `restage render`, denoised), the projects, and
-with `record` also kitchen.webp, 20 s of its window (needs Pillow);
+writes the projects, screenshots and, with `render`, what `restage render` makes of them (denoised); with `record` also kitchen.webp
+and so on, 20 s of the window (needs Pillow). A bedroom is furnished from the parts that the program ships. It
 prints the gestures, how long the script took, and how long a person would, by the keystroke-level model (S. Card, T. Moran,
 A. Newell, "The keystroke-level model for user performance time with interactive systems", CACM 23(7), 1980)."""
 import pathlib
@@ -155,7 +155,9 @@ class Hand:
         (x0, y0), (x1, y1) = self.e.point(mark), self.e.point(where)
         for attempt in range(3):  # a slow window may take the press for something else
             self.e.move((x0, y0))
+            time.sleep(0.3)
             self.e.desk.xdotool("mousedown", 1)
+            time.sleep(0.3)
             for i in range(1, 13):
                 time.sleep(0.05)
                 self.e.desk.xdotool("mousemove", x0 + (x1 - x0) * i // 12, y0 + (y1 - y0) * i // 12)
@@ -271,7 +273,7 @@ def other_materials(hand):
     hand.preset("Varnished walnut", ("picture", 0.13, 0.90))
     hand.preset("Marble, polished", ("picture", 0.07, 0.786))
     hand.preset("Marble, matt", ("picture", 0.385, 0.85))
-    hand.preset("Cream", WALL)
+    hand.preset("Linen, natural", WALL)
 
 
 def bedroom(hand):
