@@ -37,7 +37,7 @@ TEST_CASE("a path goes through its points, with and without a curve", "[arrange]
 
 TEST_CASE("copies stand at equal distances along a path, and turn with it", "[arrange]") {
     const std::vector<glm::dvec3> corner = {{1, 0, 0}, {5, 0, 0}, {5, 0, 4}};
-    const glm::dvec3 start = corner[0], ahead(2, 0, 0);
+    const glm::dvec3 &start = corner[0], ahead(2, 0, 0);
     const auto by_count = path_array(corner, {.count = 5});
     REQUIRE(by_count.size() == 4);
     CHECK(close(moved(by_count[0], start), {3, 0, 0}));
