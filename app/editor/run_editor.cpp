@@ -16,12 +16,26 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <mutex>
 
 namespace restage::editor {
 
 namespace {
+
+// Readers see the old text or the new one. Not flushed to the disk: that would hold up each frame that is measured.
+Result<void> write_probe(const std::filesystem::path& path, const std::string& text) {
+    std::filesystem::path temporary = path;
+    temporary += ".new";
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    file.close();
+    std::error_code code;
+    if (file) std::filesystem::rename(temporary, path, code);
+    if (!file || code) return fail(path.string() + ": cannot be written");
+    return {};
+}
 
 // Runs until the window is closed (0), or a signal arrives (its exit code).
 Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const RunOptions& options,
@@ -57,7 +71,7 @@ Result<int> run_frames(Editor& editor, Window& window, Farewell& farewell, const
         if (editor.title() != title) window.set_title(title = editor.title());
         if (!options.probe.empty())
             if (std::string now = editor.probe(); now != probe) {
-                RESTAGE_CHECK(write_file_atomic(options.probe, now));
+                RESTAGE_CHECK(write_probe(options.probe, now));
                 probe = std::move(now);
             }
     }

@@ -2,6 +2,7 @@
 #include "gpu/pipeline_builder.hpp"
 
 #include "base/file.hpp"
+#include "base/thread_priority.hpp"
 #include "gpu/device.hpp"
 
 #include <algorithm>
@@ -124,6 +125,7 @@ struct PipelineBuilder::Impl {
     Impl(Device& d, const ShaderCompiler& c, Stalls s) : device(d), compiler(c), stalls(s) {}
 
     void work() {
+        if (stalls == Stalls::avoid) lower_thread_priority(5); // who shows pictures meanwhile goes first
         for (;;) {
             Job job;
             {

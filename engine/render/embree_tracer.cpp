@@ -339,6 +339,7 @@ class EmbreeTracer final : public Tracer {
         if (learning_) records_.begin(count);
         queues_.begin(count);
         for (std::uint32_t bounce = 0;; ++bounce) {
+            if (bounce > 0 && keep_going && !keep_going()) return false;
             const bool last_vertex = bounce >= max_depth;
             find_hits(scene, last_vertex);
             if (scene.any_undecided()) {

@@ -87,11 +87,11 @@ class PipelineStore {
         });
     }
 
-    std::optional<CompileProgress> compiling() const {
+    std::optional<CompileProgress> compiling(const Entry* but_for = nullptr) const {
         CompileProgress progress;
         const Entry* oldest = nullptr;
         for (const auto& [key, entry] : entries_) {
-            if (!entry->building()) continue;
+            if (!entry->building() || entry.get() == but_for) continue;
             ++progress.left;
             if (!oldest || entry->begun < oldest->begun) oldest = entry.get();
         }

@@ -32,8 +32,8 @@ class Renderer {
     // (Technique::automatic) only if the last picture had some, and then their pilot decides again.
     void provisional(bool is) { provisional_ = is; }
     // Adds `samples` to every pixel, or with Settings::adaptive to their mean; first restarts the film if newly
-    // compiled shaders changed the picture. `keep_going` is called between batches of work (a wave of 65536 paths, a
-    // rectangle of the film) and while shaders compile; false stops early and is not an error.
+    // compiled shaders changed the picture. `keep_going` is called between batches of work (a bounce of 65536 paths,
+    // a rectangle of the film) and while shaders compile; false stops early and is not an error.
     Result<void> trace(std::uint32_t samples, std::function<bool()> keep_going = {});
 
     // The driver has stopped (VK_ERROR_DEVICE_LOST): everything fails until revive().

@@ -157,9 +157,18 @@ const gpu::ComputePipeline& WaveKernels::shade(std::size_t type) const {
     return slots_[type].now ? *slots_[type].now : *stand_in_.now;
 }
 
+// Once nothing else is built: so that the next new type need not wait for it.
+void WaveKernels::prepare_stand_in() {
+    if (!c_.stand_ins || stand_in_.settled || !generate_.settled) return;
+    if (!stand_in_.wanted && store_.compiling()) return;
+    if (!ask(stand_in_)) return; // reported when it is needed
+    if (stand_in_.wanted->pipeline) arrive(stand_in_);
+}
+
 bool WaveKernels::adopt() {
     for (const Slot& slot : slots_) // still wanted while its stand-in is visible, even if the last sample missed it
         if (slot.shown && slot.wanted && !slot.wanted->cancelled()) store_.keep(slot.wanted);
+    prepare_stand_in();
     store_.settle();
     bool different = false;
     for (Slot& slot : slots_) {
@@ -181,7 +190,7 @@ bool WaveKernels::adopt() {
 }
 
 std::optional<CompileProgress> WaveKernels::compiling() const {
-    auto progress = store_.compiling();
+    auto progress = store_.compiling(stand_in_.wanted.get());
     // First named is a type seen as its stand-in, also if it was built since adopt(): others keep their old code.
     const auto seen = std::ranges::find_if(slots_, [](const Slot& s) { return s.shown && s.wanted && !s.now; });
     const auto any = std::ranges::find_if(slots_, [](const Slot& s) { return s.shown && s.wanted; });

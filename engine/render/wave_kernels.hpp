@@ -62,6 +62,7 @@ class WaveKernels {
     Result<void> ask(Slot& slot);
     Result<bool> wait(Slot& slot, const std::function<bool()>& keep_going);
     void arrive(Slot& slot);
+    void prepare_stand_in();
 
     TracerContext c_;
     Store store_;

@@ -83,3 +83,18 @@ TEST_CASE("an edited scene renders like the same scene built from scratch") {
     edit(first + 1, [](auto& i) { i.hidden = false; });
     check();
 }
+
+TEST_CASE("a stop is heeded between the bounces of a sample, which then leaves nothing behind") {
+    const auto scene = balls(2).scene;
+    const auto renderer = make_renderer("embree");
+    REQUIRE(renderer->sync(scene));
+    REQUIRE(renderer->trace(1, {})); // all kernels are there
+    for (const int bounce : {1, 2, 3, 4}) {
+        int asked = 0;
+        REQUIRE(renderer->trace(1, [&] { return ++asked < bounce; }));
+        CHECK(asked == bounce);
+        CHECK(renderer->samples() == 1);
+    }
+    REQUIRE(renderer->trace(3, {}));
+    check_equal(renderer->image(), render_image(*make_renderer("embree"), scene, 4));
+}
