@@ -54,7 +54,7 @@ TEST_CASE("catcher: what is behind is multiplied by the ratio of light, and alph
 }
 
 TEST_CASE("catcher: the floor lies below what is visible, across any axis, as one edit") {
-    for (const glm::dvec3 up : {glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)}) {
+    for (const glm::dvec3& up : {glm::dvec3(0, 0, 1), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -1)}) {
         test::Room r;
         const Scene before = r.scene;
         const Bounds box = world_bounds(r.scene);
