@@ -23,6 +23,7 @@
 #include "query/touching.hpp"
 #include "saving.hpp"
 #include "scene/edits.hpp"
+#include "shadow_floor.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
 
@@ -342,6 +343,10 @@ constexpr auto actions = std::to_array<Action>({
     {"select.isolate", "Isolate", ImGuiMod_Shift | ImGuiKey_H, 0, "Hides all other objects (lights stay on)",
      has_objects, isolate},
     {"select.show_all", "Show all", ImGuiMod_Alt | ImGuiKey_H, 0, "Shows hidden objects", has_scene, show_all},
+    {"select.shadow_floor", "Add shadow catcher floor", 0, 0,
+     "Lays a floor below everything that is visible: not seen itself, it takes the shadows of objects, which then "
+     "stand in a photograph, or before a colour or nothing",
+     has_scene, add_shadow_floor},
     {"select.lock", "Lock", ImGuiMod_Ctrl | ImGuiKey_L, 0, "Clicks no longer select these objects", has_objects,
      [](Editor& e) {
          for (const InstanceId id : e.selection.instances())

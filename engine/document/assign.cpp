@@ -131,7 +131,7 @@ Result<Value> value_of(const Scene& scene, const Assignment& a, model::ParamType
     }
 }
 
-constexpr std::string_view of_objects = "material, emission, hidden";
+constexpr std::string_view of_objects = "material, emission, hidden, catcher";
 constexpr std::string_view of_lights = "value, cone_angle, cone_delta, hidden";
 constexpr std::string_view of_cameras = "fov, lens_radius, focal_distance";
 
@@ -148,6 +148,10 @@ Result<Edit> object_edit(const Scene& scene, Id<Instance> id, const Assignment& 
     if (a.field == "hidden") {
         RESTAGE_TRY(const bool hidden, truth(a));
         return set_hidden(scene, one, hidden);
+    }
+    if (a.field == "catcher") {
+        RESTAGE_TRY(const bool catcher, truth(a));
+        return set_catcher(scene, one, catcher);
     }
     if (a.value == "none") return set_emission(scene, id, std::nullopt);
     RESTAGE_TRY(const glm::vec3 radiance, color(a));

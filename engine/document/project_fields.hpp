@@ -89,6 +89,7 @@ void fields(V& v, scene::Instance& i) {
     v("reverse_orientation", i.reverse_orientation);
     v("hidden", i.hidden);
     v("alpha_mask", i.alpha_mask);
+    v("catcher", i.catcher);
     v("origin", i.origin);
 }
 template <class V>

@@ -66,6 +66,11 @@ Result<Report> export_scene(const Scene& scene, const std::string& path, const p
     if (reader.cancelled()) return cancelled(path + reader.how_stopped());
     if (!reader.error().empty()) return fail(reader.error());
     if (!saved) return fail(path + ": exporter \"" + exporter->format + "\" failed without giving a reason");
+    scene.instances.each([&](Id<Instance>, const Instance& instance) {
+        if (instance.catcher && !instance.hidden)
+            reader.report.add(Fate::approximated, "object \"" + instance.name + "\"",
+                              "scene formats have no shadow catchers: it is written as an ordinary object");
+    });
     return std::move(reader.report);
 }
 

@@ -130,6 +130,7 @@ class Describer {
         if (i.alpha_mask && (i.alpha_texture || i.alpha != 1)) text += " as a mask";
         if (i.reverse_orientation) text += "; reversed";
         if (i.hidden) text += "; hidden";
+        if (i.catcher) text += "; shadow catcher";
         if (i.group && members_[i.group.value] > 1)
             text += "; in a group of " + std::to_string(members_[i.group.value]);
         if (!names_) return text;

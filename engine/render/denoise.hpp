@@ -18,8 +18,9 @@ Result<plugin::DenoiserEntry> choose_denoiser(const plugin::Registry&, const std
 std::string denoiser_label(const plugin::DenoiserEntry&, plugin::DenoiseQuality);
 
 // Same size and units as image.color. [any], one at a time per plugin. `keep_going` may stop it: the error is then
-// of kind `cancelled`.
-Result<std::vector<glm::vec3>> denoise(const FilmImage& image, const plugin::DenoiserEntry& denoiser,
+// of kind `cancelled`. Shadows on catchers are denoised apart from what they fall on, in twice the time; image.alpha is
+// then that of the clean shadows.
+Result<std::vector<glm::vec3>> denoise(FilmImage& image, const plugin::DenoiserEntry& denoiser,
                                        plugin::DenoiseQuality quality, unsigned threads = 0,
                                        std::function<bool(double done)> keep_going = {});
 

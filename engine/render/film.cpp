@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film.hpp"
 
+#include "render/catcher.hpp"
 #include "render/film_error.hpp"
 #include "shared/twins.h"
 
@@ -51,17 +52,19 @@ FilmImage FilmImage::blank(std::uint32_t width, std::uint32_t height) {
     FilmImage image;
     image.width = width;
     image.height = height;
-    each_film_layer([&](const auto& layer) { (image.*layer.values).resize(image.pixels()); });
+    each_film_layer([&](const auto& layer) {
+        if (layer.source != LayerSource::radiance) (image.*layer.values).resize(image.pixels());
+    });
     return image;
 }
 
 void FilmImage::expose(float exposure) {
     if (exposure == 1) return;
     each_film_layer([&](const auto& layer) {
-        if (layer.source != LayerSource::samples) return;
+        if (layer.source != LayerSource::samples && layer.source != LayerSource::radiance) return;
         for (auto& value : this->*layer.values)
             if constexpr (std::is_same_v<decltype(value), float&>)
-                value *= exposure * exposure; // a variance
+                value *= layer.source == LayerSource::samples ? exposure * exposure : 1; // a variance; a fraction
             else if constexpr (!std::is_same_v<decltype(value), std::uint32_t&>)
                 value *= exposure;
     });
@@ -95,16 +98,23 @@ FilmImage Film::read() const {
                 luminance(m.color), std::max(std::sqrt(luminance_variance(m, p.count)), 1e-20)}; // > 0: it is there
         }
     correct_errors(image);
+    const bool catchers = std::ranges::any_of(guides.first(n), [](const auto& g) { return g.caught > 0; });
     each_film_layer([&](const auto& layer) {
-        if (layer.source == LayerSource::samples) return;
+        if (layer.source == LayerSource::samples || (layer.source == LayerSource::radiance && !catchers)) return;
         auto& values = image.*layer.values;
+        values.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
             const shared::GuidePixel& g = guides[i];
             if (g.count <= 0) continue;
             values[i] = layer.guide(g);
-            if (layer.source == LayerSource::mean) values[i] /= g.count;
+            if (layer.source != LayerSource::first) values[i] /= g.count;
         }
     });
+    if (catchers) {
+        for (std::size_t i = 0; i < n; ++i) // the film has L_with - L_without there
+            image.color[i] = (image.caught[i] < 1 ? image.color[i] - image.shade[i] : glm::vec3(0)) + image.backdrop[i];
+        add_shadows(image, shadow_ratios(image));
+    }
     image.samples = least_samples();
     return image;
 }

@@ -29,6 +29,11 @@ struct FilmImage {
     std::vector<float> depth; // mean distance of the first hit; 0 = none
     std::vector<float> coverage; // the fraction of samples that hit something; less than 1 where the sky is
     std::vector<std::uint32_t> instance_id, material_id; // Id::value seen by the first sample; 0 = none
+    // Where shadow catchers are seen (catcher.hpp); elsewhere empty, `alpha` too.
+    std::vector<float> caught; // the fraction of samples that met a catcher first
+    std::vector<glm::vec3> shade, without, backdrop; // radiance of catchers with objects less that without; behind them
+    std::vector<float> alpha; // coverage, but of catchers only what is in shadow. Not a layer: it follows from them
+    const std::vector<float>& opacity() const { return alpha.empty() ? coverage : alpha; }
 
     static FilmImage blank(std::uint32_t width, std::uint32_t height); // all zeros
     void expose(float exposure); // multiplies what is radiance
@@ -38,6 +43,7 @@ struct FilmImage {
 enum class LayerSource {
     samples, // sums and squares of the film: color and its errors; scaled by exposure
     mean, // of all samples' guides
+    radiance, // likewise, colours scaled by exposure; empty unless shadow catchers are seen
     first, // of the first sample's guide
 };
 enum class LayerLook { hidden, light, reflectance, direction, distance, fraction, number }; // in the viewport
@@ -158,6 +164,42 @@ inline constexpr std::tuple film_layers{
                              .look = LayerLook::number,
                              .label = "Materials",
                              .doc = "uint32 (H, W): Material.id there; 0 = none."},
+    FilmLayer<float>{.values = &FilmImage::caught,
+                     .name = "",
+                     .in_file = "catcher",
+                     .channels = {"A"},
+                     .source = LayerSource::radiance,
+                     .guide = [](const shared::GuidePixel& g) { return g.caught; },
+                     .look = LayerLook::hidden,
+                     .label = "",
+                     .doc = ""},
+    FilmLayer<glm::vec3>{.values = &FilmImage::shade,
+                         .name = "",
+                         .in_file = "catcher",
+                         .channels = {"shadeR", "shadeG", "shadeB"},
+                         .source = LayerSource::radiance,
+                         .guide = [](const shared::GuidePixel& g) { return g.shade; },
+                         .look = LayerLook::hidden,
+                         .label = "",
+                         .doc = ""},
+    FilmLayer<glm::vec3>{.values = &FilmImage::without,
+                         .name = "",
+                         .in_file = "catcher",
+                         .channels = {"withoutR", "withoutG", "withoutB"},
+                         .source = LayerSource::radiance,
+                         .guide = [](const shared::GuidePixel& g) { return g.without; },
+                         .look = LayerLook::hidden,
+                         .label = "",
+                         .doc = ""},
+    FilmLayer<glm::vec3>{.values = &FilmImage::backdrop,
+                         .name = "",
+                         .in_file = "catcher",
+                         .channels = {"behindR", "behindG", "behindB"},
+                         .source = LayerSource::radiance,
+                         .guide = [](const shared::GuidePixel& g) { return g.backdrop; },
+                         .look = LayerLook::hidden,
+                         .label = "",
+                         .doc = ""},
 };
 
 // f(const FilmLayer<V>&) for each.

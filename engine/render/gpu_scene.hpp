@@ -214,7 +214,9 @@ class GpuScene {
     struct Counts { // of instances
         std::uint32_t traced = 0, glow = 0, not_plain = 0; // that rays can hit; of these
         std::uint32_t border = 0, quadric = 0; // quadric: that is shown, though maybe not hit
+        std::uint32_t catchers = 0; // that rays can hit
     } counts_;
+    bool compensated_ = false; // the environment's density: MIS compensation
     bool lights_touched_ = false; // by the last sync_instances: emitters that came or went
     std::vector<scene::Id<scene::Instance>> moved_emitters_; // likewise: those that only moved
     bool reads_files_ = false; // some material in use does; the files may have changed

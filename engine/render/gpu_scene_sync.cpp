@@ -271,6 +271,7 @@ void GpuScene::count(std::uint32_t instance, std::uint32_t by) {
     if (!traced_[instance]) return;
     counts_.traced += by;
     if (flags & INSTANCE_PASSES) counts_.glow += by;
+    if (flags & INSTANCE_CATCHES) counts_.catchers += by;
     if (flags & (INSTANCE_HAS_ALPHA | INSTANCE_HAS_GAPS | INSTANCE_PASSES | INSTANCE_QUADRIC)) counts_.not_plain += by;
 }
 
@@ -329,14 +330,17 @@ Result<void> GpuScene::sync_instances(const Scene& scene, SceneChanges& changes,
         const bool invisible = in && !scene.textures.find(in->alpha_texture) && !(in->alpha > 0);
         const bool traced = there && !invisible && (!nothing || in->emission);
         const bool border = there && (gaps || nothing) && in->media && in->media->interior != in->media->exterior;
-        const bool moved_in_or_out =
-            i >= old || traced != (traced_[i] != 0) || border != (border_[i] != 0) || (in && replaced[in->mesh.value]);
+        const bool catches = traced && in->catcher;
+        const bool moved_in_or_out = i >= old || catches != ((instances_[i].flags & INSTANCE_CATCHES) != 0) ||
+                                     traced != (traced_[i] != 0) || border != (border_[i] != 0) ||
+                                     (in && replaced[in->mesh.value]);
         if (!moved_in_or_out && scene.instances.version(id) <= seen_.instances &&
             instances_[i].material == (nothing ? 0 : m) && !emission_changed_[m] &&
             gaps == ((instances_[i].flags & INSTANCE_HAS_GAPS) != 0))
             return; // the common case
         auto record = in ? make_instance(scene, i, *in) : shared::InstanceData{};
         if (traced && nothing) record.flags |= INSTANCE_PASSES;
+        if (catches) record.flags |= INSTANCE_CATCHES | INSTANCE_PASSES;
         record.light_base = i < light_table_.light_base.size() ? light_table_.light_base[i] : NONE;
         const Id<scene::Mesh> its_mesh = in ? in->mesh : Id<scene::Mesh>{};
         if ((record.flags | instances_[i].flags) & (INSTANCE_EMITS | INSTANCE_PASSES)) {
@@ -393,10 +397,14 @@ std::optional<Emitter> GpuScene::emitter_of(const Scene& scene, Id<scene::Instan
 // all: including those not changed themselves.
 Result<void> GpuScene::sync_lights(const Scene& scene, SceneChanges& changes, bool all) {
     const auto& env = scene.environment.value;
-    if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images) {
+    // Shadow catchers are lit by light sampling alone.
+    const bool compensate = strategy_ == Strategy::mis && counts_.catchers == 0;
+    if (first_ || scene.environment.version != seen_.environment || scene.images.version() != seen_.images ||
+        compensated_ != compensate) {
         const auto* image = env ? scene.images.find(env->image) : nullptr;
         environment_ = make_environment_map(image ? image->data.get() : nullptr,
-                                            env ? env->mapping : scene::Mapping::equirect, strategy_ == Strategy::mis);
+                                            env ? env->mapping : scene::Mapping::equirect, compensate);
+        compensated_ = compensate;
         if (environment_.mended > 0)
             changes.warnings.push_back(
                 fmt::format("environment \"{}\": {} values of its image are negative or not finite; replaced by 0",
@@ -550,6 +558,7 @@ Result<void> GpuScene::sync_root(const Scene& scene, SceneChanges& changes, bool
     f.emission_textures = std::ranges::any_of(emission_, [](const auto& e) { return e && e->texture; });
     f.light_alpha = light_alpha_;
     f.glow = counts_.glow > 0;
+    f.catchers = counts_.catchers > 0;
     f.quadrics = counts_.quadric > 0;
     const auto* camera = scene.cameras.find(scene.active_camera.value);
     f.camera = camera ? std::uint32_t(camera->projection) : CAMERA_PERSPECTIVE;

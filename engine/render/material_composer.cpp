@@ -201,7 +201,8 @@ std::vector<gpu::SpecConstant> spec_constants(const SceneFeatures& f, bool guide
             {17, f.light_roots},
             {18, f.curves || (type && type->curves)},
             {19, f.caustics},
-            {20, f.guiding}};
+            {20, f.guiding},
+            {21, f.catchers}};
 }
 
 } // namespace restage::render

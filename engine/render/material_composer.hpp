@@ -28,6 +28,7 @@ struct SceneFeatures {
     bool curves = false;      // of it: some light or medium has a measured spectrum
     bool caustics = false;    // requested, and some light may meet something specular
     bool guiding = false;     // the tracer's: paths are guided
+    bool catchers = false;    // shadow catchers
     std::uint32_t camera = 0; // CAMERA_*
     std::uint32_t lights = 0; // LIGHTS_*
     std::uint32_t light_roots = 0;

@@ -243,6 +243,11 @@ Result<Edit> set_hidden(const Scene& scene, std::span<const Id<Instance>> ids, b
                        [&](Instance& i) { i.hidden = hidden; });
 }
 
+Result<Edit> set_catcher(const Scene& scene, std::span<const Id<Instance>> ids, bool catcher) {
+    return modify_each(scene, ids, label_for(scene, catcher ? "Shadow catcher:" : "No shadow catcher:", ids),
+                       [&](Instance& i) { i.catcher = catcher; });
+}
+
 Result<Edit> set_hidden(const Scene& scene, Id<Light> id, bool hidden) {
     const Light* light = scene.lights.find(id);
     return modify(scene, id, std::string(hidden ? "Hide " : "Show ") + (light ? light->name : "light"),

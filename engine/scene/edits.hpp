@@ -77,6 +77,7 @@ Result<Edit> set_material(const Scene&, std::span<const Id<Instance>>, Id<Materi
 Result<Edit> set_emission(const Scene&, Id<Instance>, std::optional<Emission>);
 Result<Edit> set_hidden(const Scene&, std::span<const Id<Instance>>, bool hidden);
 Result<Edit> set_hidden(const Scene&, Id<Light>, bool hidden);
+Result<Edit> set_catcher(const Scene&, std::span<const Id<Instance>>, bool catcher);
 
 // Drops the lines valid only while `param` ("*": everything) is as imported. The builders below call it.
 void forget_edited(Origin&, std::string_view param);

@@ -131,6 +131,7 @@ struct Instance {
     bool hidden = false;
     Origin origin;
     bool alpha_mask = false; // alpha above 0 stops every ray; else it is the fraction stopped
+    bool catcher = false; // not seen, but shadows on it are (render/catcher.hpp)
     bool operator==(const Instance&) const = default;
 };
 

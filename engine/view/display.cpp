@@ -46,7 +46,7 @@ Scale show_distance(std::span<const float> distances, std::uint32_t* out) { // n
 }
 
 Developing developing(const DisplaySettings& s, const render::FilmImage& image) {
-    return {.how = s.development, .factor = s.scale * std::exp2(s.exposure), .coverage = image.coverage};
+    return {.how = s.development, .factor = s.scale * std::exp2(s.exposure), .coverage = image.opacity()};
 }
 
 // Relative standard error of luminance, logarithmic from 1e-3 to 1.

@@ -2,6 +2,7 @@
 #include "view/merge_pictures.hpp"
 
 #include "io/exr.hpp"
+#include "render/catcher.hpp"
 #include "render/film_error.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,10 @@ template <class V>
 void merge_means(std::span<const PicturePart> parts, const render::FilmLayer<V>& layer, FilmImage& out) {
     if constexpr (std::is_same_v<V, float> || std::is_same_v<V, glm::vec3>) {
         using Sum = std::conditional_t<std::is_same_v<V, float>, double, glm::dvec3>;
+        if (std::ranges::any_of(parts, [&](const PicturePart& p) { return (p.film->*layer.values).empty(); })) {
+            (out.*layer.values).clear(); // of catchers
+            return;
+        }
         double samples = 0;
         std::vector<Sum> sums(out.pixels(), Sum(0));
         for (const PicturePart& part : parts) {
@@ -154,12 +159,10 @@ Result<std::vector<SampleRange>> join(std::vector<SampleRange> ranges) {
     return out;
 }
 
-} // namespace
-
-Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
-    if (parts.empty()) return fail("no pictures to merge");
+Result<FilmImage> merge_linear(std::span<const PicturePart> parts) {
     const PicturePart& earliest = *std::ranges::min_element(parts, {}, &PicturePart::first_sample);
     FilmImage out = *earliest.film; // its ids are those of the first sample
+    out.alpha.clear();
     std::uint64_t samples = 0;
     for (const PicturePart& part : parts) {
         if (part.film->width != out.width || part.film->height != out.height)
@@ -172,9 +175,30 @@ Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
         merge_pixel(parts, i, out);
     render::correct_errors(out);
     render::each_film_layer([&](const auto& layer) {
-        if (layer.source == render::LayerSource::mean) merge_means(parts, layer, out);
+        if (layer.source == render::LayerSource::mean || layer.source == render::LayerSource::radiance)
+            merge_means(parts, layer, out);
     });
     return out;
+}
+
+} // namespace
+
+Result<FilmImage> merge_films(std::span<const PicturePart> parts) {
+    if (parts.empty()) return fail("no pictures to merge");
+    // Shadows on catchers are ratios of means: those of the whole follow from its layers.
+    if (std::ranges::all_of(parts, [](const PicturePart& part) { return render::has_catchers(*part.film); })) {
+        std::vector<FilmImage> bare;
+        std::vector<PicturePart> bare_parts;
+        bare.reserve(parts.size());
+        for (const PicturePart& part : parts) {
+            render::remove_shadows(bare.emplace_back(*part.film));
+            bare_parts.push_back({.film = &bare.back(), .first_sample = part.first_sample});
+        }
+        RESTAGE_TRY(FilmImage out, merge_linear(bare_parts));
+        render::add_shadows(out, render::shadow_ratios(out));
+        return out;
+    }
+    return merge_linear(parts);
 }
 
 std::string to_text(std::span<const SampleRange> ranges) {
@@ -212,9 +236,11 @@ Result<StoredPicture> read_picture(const std::string& path) {
                     "render it with this version and with --aov all or stderr");
     render::each_film_layer([&](const auto& layer) {
         if (lacking.contains(layer.in_file)) return;
+        (film.*layer.values).resize(film.pixels());
         read_layer(image, layer.in_file, layer, film);
         out.layers.insert(layer.in_file);
     });
+    if (render::has_catchers(film)) render::set_alpha(film, render::shadow_ratios(film));
     return out;
 }
 

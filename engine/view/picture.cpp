@@ -133,7 +133,7 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
                 {.how = how,
                  .factor = picture.exposure * std::exp2(o.exposure_stops),
                  .window = picture.window,
-                 .coverage = film.coverage},
+                 .coverage = film.opacity()},
                 rgba.data());
         return write_rgba(path, film.width, film.height, rgba);
     }
@@ -147,15 +147,17 @@ Result<void> write_picture(const std::string& path, const Picture& picture, cons
     if (picture.development.backdrop == scene::Backdrop::transparent) // its colours are premultiplied, as in any .exr
         render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
             if constexpr (std::is_same_v<V, float>)
-                if (layer.values == &render::FilmImage::coverage) add_layer(image, "", layer, film.coverage, 1);
+                if (layer.values == &render::FilmImage::coverage) add_layer(image, "", layer, film.opacity(), 1);
         });
     if (picture.denoised) add_layer(image, "noisy", seen, film.color, picture.exposure);
     render::each_film_layer([&](const auto& layer) {
         const bool wanted =
             o.aovs == "all" || ("," + o.aovs + ",").find(std::string(",") + layer.in_file + ",") != std::string::npos;
-        if (!*layer.in_file || !wanted) return;
+        if (!*layer.in_file || !wanted || (film.*layer.values).empty()) return;
         add_layer(image, layer.in_file, layer, film.*layer.values,
-                  layer.source == render::LayerSource::samples ? picture.exposure : 1);
+                  layer.source == render::LayerSource::samples || layer.source == render::LayerSource::radiance
+                      ? picture.exposure
+                      : 1);
     });
     return io::write_exr(path, image);
 }

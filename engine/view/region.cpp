@@ -11,6 +11,7 @@ namespace {
 template <class V>
 std::vector<V> put(const std::vector<V>& around, glm::uvec2 around_size, glm::uvec2 size, const std::vector<V>& part,
                    glm::uvec2 part_size, glm::uvec2 lower) {
+    if (around.empty() && part.empty()) return {}; // no catchers are seen
     std::vector<V> whole(std::size_t{size.x} * size.y);
     if (around.size() == std::size_t{around_size.x} * around_size.y && !around.empty())
         for (std::uint32_t y = 0; y < size.y; ++y) {
@@ -38,6 +39,9 @@ render::FilmImage with_part(const render::FilmImage& around, glm::uvec2 size, co
         whole.*layer.values = put(around.*layer.values, {around.width, around.height}, size, part.*layer.values,
                                   {part.width, part.height}, lower);
     });
+    if (!around.alpha.empty() || !part.alpha.empty())
+        whole.alpha = put(around.opacity(), {around.width, around.height}, size, part.opacity(),
+                          {part.width, part.height}, lower);
     return whole;
 }
 

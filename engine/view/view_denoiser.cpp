@@ -93,11 +93,11 @@ void ViewDenoiser::run() {
             return host_.wanted(*source);
         };
         const auto start = std::chrono::steady_clock::now();
-        auto color = render::denoise(source->image, *denoiser, plugin::DenoiseQuality::fast, 0, keep_going);
+        auto frame = std::make_shared<Frame>(*source);
+        auto color = render::denoise(frame->image, *denoiser, plugin::DenoiseQuality::fast, 0, keep_going);
         if (!color && color.error().cancelled()) continue;
         host_.says(color ? "" : color.error().message); // on failure, noisy pictures are shown
         if (!color) continue;
-        auto frame = std::make_shared<Frame>(*source);
         frame->image.color = std::move(*color);
         frame->denoised = true;
         frame->denoise_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -5,6 +5,7 @@
 #include "pulse.hpp"
 
 #include "base/file.hpp"
+#include "render/catcher.hpp"
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
 #include "scene/development.hpp"
@@ -183,6 +184,7 @@ void set_state(Picture& p, const nb::tuple& t) {
     const auto layers = nb::cast<nb::list>(t[3]);
     std::size_t at = 0;
     render::each_film_layer([&](const auto& layer) { from_bytes(layers[at++], f.*layer.values); });
+    if (render::has_catchers(f)) render::set_alpha(f, render::shadow_ratios(f));
     from_bytes(t[4], p.denoised);
     p.seed = nb::cast<std::uint32_t>(t[5]);
     p.first_sample = nb::cast<std::uint32_t>(t[6]);

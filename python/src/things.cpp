@@ -270,7 +270,18 @@ void bind_verbs(nb::class_<C>& c) {
                 });
             },
             [](const C& self, bool hidden) { self.in->edit(set_hidden(self.in->scene(), objects_of(self), hidden)); },
-            "True: it is in the scene, but rays do not hit it.");
+            "True: it is in the scene, but rays do not hit it.")
+        .def_prop_rw(
+            "shadow_catcher",
+            [](const C& self) {
+                const Objects ids = objects_of(self);
+                return !ids.empty() && std::all_of(ids.begin(), ids.end(), [&](Id<Instance> id) {
+                    return self.in->scene().instances[id].catcher;
+                });
+            },
+            [](const C& self, bool on) { self.in->edit(set_catcher(self.in->scene(), objects_of(self), on)); },
+            "True: not seen itself, but it takes the shadows of other objects over the sky, or with alpha over a "
+            "transparent backdrop.");
 }
 
 } // namespace

@@ -49,6 +49,7 @@ const bool HAS_LAMP_TRIANGLES = (LIGHT_KINDS & LIGHTS_TRIANGLES) != 0u;
 layout(constant_id = 18) const bool HAS_CURVES = false; // spectral mode: measured spectra, of the material or of lights
 layout(constant_id = 19) const bool HAS_CAUSTICS = false; // photon maps: path/photons.glsl
 layout(constant_id = 20) const bool HAS_GUIDING = false; // directions are chosen by path guiding, too
+layout(constant_id = 21) const bool HAS_CATCHERS = false; // shadow catchers: path/catcher.glsl
 layout(constant_id = 14) const uint CAMERA_KIND = 0u;        // CAMERA_*
 
 // The second set of uv if the mesh has one, else the first.

@@ -27,6 +27,7 @@ Spectrum surface_emission(SceneData scene, InstanceData inst, uint prim, vec2 ba
                           out float pdf_light) {
     pdf_light = 0.0;
     uint depth = path.flags & PATH_DEPTH_MASK;
+    if (HAS_CATCHERS && depth == 1u && (path.flags & PATH_CAUGHT) != 0u) return Spectrum(0); // path/catcher.glsl
     float c = dot(-ray.direction, s.ng);
     if ((inst.flags & INSTANCE_TWO_SIDED) != 0u) c = abs(c);
     if (c <= 0.0) return Spectrum(0);

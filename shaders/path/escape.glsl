@@ -24,6 +24,7 @@ void path_escape(SceneData scene, Receiver from, vec3 direction, inout PathState
     pdf_light = 0.0;
     if (!HAS_ENVIRONMENT || scene.environment.light == NONE) return;
     uint depth = path.flags & PATH_DEPTH_MASK;
+    if (HAS_CATCHERS && depth == 1u && (path.flags & PATH_CAUGHT) != 0u) return; // path/catcher.glsl
     // Directly from the camera, also through cut-outs and null surfaces; glass and mirrors show it.
     if (depth == 0u && scene.environment.hidden != 0u) return;
     float pdf_env;

@@ -51,7 +51,7 @@ bool film_add(inout FilmPixel f, vec3 c) {
 // For a sample that hits nothing. weight: of the pixel filter; < 0: this surface is not a guide.
 GuideSample guide_nothing(float weight) {
     GuideSample g;
-    g.albedo = g.normal = vec3(0);
+    g.albedo = g.normal = g.without = g.backdrop = vec3(0);
     g.depth = g.coverage = 0.0;
     g.instance_id = g.material_id = 0u;
     g.weight = weight;
@@ -65,6 +65,10 @@ void guide_write(GuideArray guides, uint i, GuideSample g) {
     guides.at[i].instance_id = g.instance_id;
     guides.at[i].material_id = g.material_id;
     guides.at[i].coverage = g.coverage;
+    if (HAS_CATCHERS) {
+        guides.at[i].without = g.without;
+        guides.at[i].backdrop = g.backdrop;
+    }
 }
 void guide_write_behind(GuideArray guides, uint i, GuideSample g) {
     guides.at[i].albedo = g.albedo;
@@ -80,7 +84,16 @@ void guide_add(inout GuidePixel g, GuideSample a) {
     g.normal += a.normal;
     g.depth += a.depth;
     g.coverage += a.coverage;
+    if (HAS_CATCHERS) {
+        g.without += a.without;
+        g.backdrop += a.backdrop;
+    }
     g.count += 1.0;
+}
+// radiance: of `count` paths that began at a catcher, which is their L_with - L_without (path/catcher.glsl).
+void guide_add_caught(inout GuidePixel g, vec3 radiance, float count) {
+    g.shade += radiance;
+    g.caught += count;
 }
 // Behind mirrors and glass: for a sample that guide_add has counted.
 void guide_add_behind(inout GuidePixel g, GuideSample a) {

@@ -11,6 +11,7 @@
 #include <restage/v1/bsdf.glsl>
 #include "lib/light.glsl"
 #include "lib/sampler.glsl"
+#include "path/catcher.glsl"
 #include "path/emission.glsl"
 #include "path/film.glsl"
 #include "path/photons.glsl"
@@ -55,8 +56,11 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         path.radiance += surface_emission(scene, inst, prim, bary, s, t, ray, path, pdf_light);
 #endif
 
+    bool photon = HAS_CAUSTICS && (path.flags & PATH_PHOTON) != 0u;
+    bool catches = HAS_CATCHERS && (inst.flags & INSTANCE_CATCHES) != 0u && (photon || depth == 0u);
+    bool caught = catches && !photon;
     // A lamp without a surface: the ray keeps its origin, so that distances stay those to the last vertex.
-    if (HAS_GLOW && (inst.flags & INSTANCE_PASSES) != 0u) {
+    if (HAS_GLOW && (inst.flags & INSTANCE_PASSES) != 0u && !catches) {
         float away = s.offset + EPS * (6.0 * dot(abs(ray.origin), vec3(1)) + 15.0 * t); // see light_offset
         next = ray;
         next.tmin = t * (1.0 + 4.0 * EPS) + away / max(abs(dot(wo_world, s.ng)), 1e-4);
@@ -89,8 +93,12 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
         guide.instance_id = inst.object_id;
         guide.material_id = material_data.id;
     }
+    if (caught) {
+        path.flags |= PATH_CAUGHT;
+        guide.albedo = guide.normal = vec3(0);
+        guide.backdrop = behind_catcher(scene, path, ray.direction);
+    }
     bool last = depth >= scene.max_depth;
-    bool photon = HAS_CAUSTICS && (path.flags & PATH_PHOTON) != 0u;
     Rng rng = Rng(pcg_hash(path.seed ^ pcg_hash(path.sample_index * 64u + depth)));
     uvec2 pick = sample_bits(path.seed, path.sample_index, pair_light_pick(depth));
     float u_lobe = to_unit(sample_bits(path.seed, path.sample_index, pair_lobe(depth)).x);
@@ -99,21 +107,23 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
 
     Guide directions;
     if (HAS_GUIDING) directions = guide_at(GuidingRef(scene.guiding).guiding, s, m, wo);
-    if (HAS_GUIDING && photon) directions.share = 0.0;
+    if (HAS_GUIDING && (photon || caught)) directions.share = 0.0;
 
     // Next-event estimation
     if (LIGHT_ROOTS > 0u) {
         LightSample light = light_sample(scene, receiver_at(s.p, receiver), pick.x, sample_bits(path.seed, path.sample_index, pair_light(depth)));
-        if (!last && !photon && light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0)) {
+        if (!last && !photon && light.pdf > 0.0 && (STRATEGY != 2 || light.delta || light.unseen > 0.0 || caught)) {
             vec3 wi = to_local(s, light.wi);
             // Shading and geometry must agree on reflection or transmission, or light would leak through surfaces.
             bool same_side = dot(light.wi, s.ng) * dot(wo_world, s.ng) > 0.0;
             Spectrum f = same_side == same_hemisphere(wo, wi) ? material_eval(m, wo, wi, rng) : Spectrum(0);
+            if (caught) f = same_side ? catcher_eval(wo, wi) : Spectrum(0);
             ok = finite(f);
             if (max_component(f) > 0.0) {
                 float pdf = light.delta || STRATEGY == 2 ? 0.0 : material_pdf(m, wo, wi, rng);
                 if (HAS_GUIDING && !light.delta) pdf = guided_pdf(directions, light.wi, pdf);
                 float w = light.delta ? 1.0 : STRATEGY == 2 ? 0.0 : mis_weight(light.pdf, pdf);
+                if (caught) w = 1.0;
                 if (HAS_LIGHT_ALPHA) w = mix(w, 1.0, light.unseen);
                 Spectrum c = path.throughput * f * light.radiance * (w / light.pdf);
                 uint medium = path.medium;
@@ -122,6 +132,10 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
                 if (HAS_MEDIA) c *= absorb(scene, medium, light.dist);
                 shadow.medium = medium;
                 shadow_contribution = clamp_contribution(scene, c, depth);
+                if (caught) {
+                    path.radiance -= shadow_contribution;
+                    guide.without = rgb_from_spectrum(shadow_contribution);
+                }
                 shadow.origin = offset_origin(s.p, s.ng, s.offset, light.wi);
                 shadow.direction = light.wi;
                 shadow.tmax = 1e30;
@@ -143,7 +157,8 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     bool guided = HAS_GUIDING && u.x < directions.share;
     if (HAS_GUIDING) u.x = guided ? u.x / directions.share : (u.x - directions.share) / (1.0 - directions.share);
     BsdfSample b = material_sample(m, wo, vec3(u, u_lobe), rng);
-    if (HAS_GUIDING) {
+    if (caught) b = catcher_sample(wo, u);
+    if (HAS_GUIDING && !caught) {
         float roulette;
         b = guided_sample(directions, m, s, wo, u, guided, b, rng, roulette);
         path.eta_scale *= roulette;
@@ -178,7 +193,7 @@ bool path_step(SceneData scene, InstanceData inst, MaterialData material_data, u
     path.eta_scale *= b.eta * b.eta;
     if (HAS_MEDIA && !same_side && (inst.flags & INSTANCE_HAS_MEDIA) != 0u)
         path.medium = dot(wi_world, s.ng) > 0.0 ? inst.exterior : inst.interior;
-    path.flags = (depth + 1u) | (path.flags & PATH_HERO) | (delta ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u) |
+    path.flags = (depth + 1u) | (path.flags & (HAS_CATCHERS ? PATH_HERO | PATH_CAUGHT : PATH_HERO)) | (delta ? PATH_SPECULAR | (path.flags & PATH_GUIDED) : 0u) |
                  (HAS_CAUSTICS ? photon_flags(path.flags, photon_role, delta) : 0u);
 
     // Russian roulette on throughput, blind to the eta^2 of radiance inside glass; pbrt 4ed, 13.4.2

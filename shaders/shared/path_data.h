@@ -18,6 +18,7 @@ RESTAGE_UINT(PATH_GUIDED, 0x20000u); // the denoiser's guide is still ahead: onl
 RESTAGE_UINT(PATH_HERO, 0x40000u); // only the hero wavelength is left: it went through something dispersive
 RESTAGE_UINT(PATH_CAUSTIC, 0x80000u); // since a scattering vertex, it met only casters: photons carry what it finds so
 RESTAGE_UINT(PATH_PHOTON, 0x100000u); // it started at a light; `radiance` is its power at the start
+RESTAGE_UINT(PATH_CAUGHT, 0x200000u); // its camera ray met a shadow catcher: path/catcher.glsl
 RESTAGE_UINT(PATH_DEPTH_MASK, 0xffffu);
 RESTAGE_UINT(COUNTER_MAX_TYPES, 64u);
 RESTAGE_UINT(COUNTER_RAYS, 64u);
@@ -76,13 +77,14 @@ struct FourthData { // 16 bytes, of a path in spectral mode
     float hero; // [0, 1): the number that chose its wavelengths; shared/spectral.h
 };
 
-struct GuideSample { // 44 bytes, of the first hit; albedo and normal: of the first that is not a mirror or smooth glass
+struct GuideSample { // 68 bytes, of the first hit; albedo and normal: of the first that is not a mirror or smooth glass
     vec3 albedo;
     vec3 normal; // world space, shading
     float depth; // distance along the ray; 0 = nothing hit
     uint instance_id, material_id;
     float weight; // of the filter
     float coverage; // 1 = it hit something
+    vec3 without, backdrop; // where HAS_CATCHERS, at a catcher: its light without objects, and what is behind it
 };
 
 struct FilmPixel { // 60 bytes; what the sums have in excess is subtracted when they are read
@@ -100,6 +102,8 @@ struct GuidePixel {
     float depth;
     uint instance_id, material_id; // of the first sample
     float coverage;
+    float caught; // samples that met a catcher first; sums of these follow
+    vec3 shade, without, backdrop; // shade: light with objects less that without
 };
 
 struct SamplePick { // a sample to take

@@ -21,6 +21,7 @@ RESTAGE_UINT(INSTANCE_ALPHA_MASK, 256u); // alpha above 0 stops every ray
 RESTAGE_UINT(INSTANCE_EMITS_UNSEEN, 512u); // emits even where alpha lets rays pass
 RESTAGE_UINT(INSTANCE_PASSES, 1024u); // no surface, but it emits: rays see its light and continue
 RESTAGE_UINT(INSTANCE_QUADRIC, 2048u); // `positions` is the address of a QuadricData; prim is 0, bary is pbrt's (u, v)
+RESTAGE_UINT(INSTANCE_CATCHES, 4096u); // a shadow catcher: camera rays end there, all others pass (PASSES is set, too)
 RESTAGE_UINT(MATERIAL_NOTHING, 0xfffffffeu); // instead of a MaterialData index: no surface, rays pass
 RESTAGE_UINT(MATERIAL_MIX, 1u);
 // The first word of an operation of a texture's program

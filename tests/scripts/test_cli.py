@@ -240,7 +240,7 @@ def test_one_sample_has_no_error_and_unknown_layers_and_denoisers_are_refused(tm
     common = ["render", CORNELL, "-o", tmp_path / "one.exr", "--size", "16x16", "--spp", 1]
     done = restage(*common)
     assert done.returncode == 0 and "error unknown with one sample" in done.stderr and "e+3" not in done.stderr
-    for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth, coverage and id"),
+    for extra, says in ((["--aov", "foo"], "there are stderr, albedo, normal, depth, coverage, id and catcher"),
                         (["--denoiser", "nosuch"], 'there is no denoiser "nosuch"; there are')):
         done = restage(*common, *extra)
         assert done.returncode == 1 and says in done.stderr

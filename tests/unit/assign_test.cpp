@@ -46,6 +46,8 @@ TEST_CASE("name.field=value changes a scene", "[assign]") {
     CHECK(s.materials[session.find<Material>("steel")].type == "diffuse");
     set("Lamp.emission=3");
     CHECK(s.instances[session.find<Instance>("Lamp")].emission->radiance == glm::vec3(3));
+    set("Lamp.catcher=true");
+    CHECK(s.instances[session.find<Instance>("Lamp")].catcher);
     set("Lamp.material=oak");
     set("Lamp.emission=none");
     set("Lamp.hidden=true");

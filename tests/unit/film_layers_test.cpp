@@ -24,6 +24,7 @@ FilmImage numbered(float first) {
     image.samples = 2;
     float next = first;
     render::each_film_layer([&]<class V>(const render::FilmLayer<V>& layer) {
+        (image.*layer.values).resize(image.pixels()); // those of catchers, too
         for (V& value : image.*layer.values)
             value = V(next += 0.25f);
     });

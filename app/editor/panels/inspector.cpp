@@ -29,6 +29,12 @@ void object_section(SelectContext& e, InstanceId id) {
     if (bool hidden = instance.hidden; ImGui::Checkbox("##hidden", &hidden))
         e.edit([ids, hidden](const scene::Scene& s) { return scene::set_hidden(s, ids, hidden); });
     e.mark("inspector.hidden");
+    form_row("Shadow catcher",
+             "Not seen itself, it takes the shadows of other objects and the light they reflect, over the sky or the "
+             "backdrop. Its material does not matter: it is as a white, matt surface");
+    if (bool catcher = instance.catcher; ImGui::Checkbox("##catcher", &catcher))
+        e.edit([ids, catcher](const scene::Scene& s) { return scene::set_catcher(s, ids, catcher); });
+    e.mark("inspector.catcher");
     form_row("Locked", "Clicks in the picture ignore it");
     if (bool locked = e.locked.contains(id.value); ImGui::Checkbox("##locked", &locked))
         e.later([&e, ids, locked] {
