@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue of small pictures: the latest batch first, coarse before full, nothing while held.
+// The queue of small pictures: the latest batch first, coarse before full, nothing while held; and balls beside a
+// picture that is refined.
 #include "editor/small_pictures.hpp"
 #include "editor/material_balls.hpp"
 #include "headless.hpp"
+#include "temporary_folder.hpp"
 
 #include <atomic>
 #include <utility>
@@ -67,4 +69,31 @@ TEST_CASE("small pictures: the latest batch first, coarse before full, nothing w
     pictures.drop(4);
     pictures.hold(false);
     CHECK(wait_for(pictures, 6) == Order{{3, true}, {1, true}, {2, true}, {3, false}, {1, false}, {2, false}});
+}
+
+TEST_CASE("balls appear while the picture is still refined", "[ui][presets]") {
+    const test::TemporaryFolder folder;
+    tests::Headless h("demo/demo.pbrt", 1, {1500, 1000}, folder.path());
+    h.editor().view.resolution = 0.3f;
+    h.editor().view.samples = 1u << 20;
+    double seconds[2] = {};
+    h.play("balls", [&](ImGuiTestContext* ctx) {
+        const view::LiveView& live = h.editor().live();
+        const auto refines = [&] {
+            const view::ViewStatus status = live.status();
+            return status.current && status.divider == 1 && status.state == view::ViewState::rendering;
+        };
+        const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(3);
+        while (!refines() && std::chrono::steady_clock::now() < limit)
+            ctx->Yield();
+        h.focus(ctx, "Materials");
+        const auto start = std::chrono::steady_clock::now();
+        for (std::size_t i = 0; i < 2; ++i) {
+            h.wait_for(ctx, std::string("materials.ball.") + (i == 0 ? "Plaster" : "Ceiling paint"));
+            seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        }
+        IM_CHECK(refines());
+    });
+    CAPTURE(seconds[0], seconds[1]);
+    CHECK(seconds[0] <= seconds[1]);
 }
