@@ -2,64 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes scenes/demo (pbrt-v4), a breakfast corner at late morning, and the sky of scenes/spheres. Needs numpy."""
 
-import pathlib
-import sys
-
-import numpy as np
-from demo_scene import furniture, images, room, sky, tableware, textures
+from demo_scene import daylight, furniture, images, room, sky, tableware, textures
 from demo_scene.mesh import rotate, scale, translate
-from demo_scene.writer import Scene, numbers
+from demo_scene.writer import Scene
 
 EYE, TARGET, FOV = (3.72, -4.50, 1.48), (1.56, -0.90, 0.93), 36.0
-SUN_ELEVATION, SUN_HEADING = 31.0, 5.0  # light travels along +x, turned by the heading about z [degrees]
-SUN_IRRADIANCE = np.array([1.0, 0.86, 0.69]) * 20.0
-SKY_SCALE = 4.0
 TABLE = (1.95, -1.62)
-
-
-def sun_from():
-    e, h = np.radians(SUN_ELEVATION), np.radians(SUN_HEADING)
-    return np.array([-np.cos(e) * np.cos(h), -np.cos(e) * np.sin(h), np.sin(e)])
-
-
-def head():
-    return f"""
-# A breakfast corner at late morning. Metres; z is up. See scenes/README.md.
-Scale -1 1 1
-LookAt {numbers(EYE)}  {numbers(TARGET)}  0 0 1
-Camera "perspective"
-    "float fov" [ {FOV} ]
-Film "rgb"
-    "integer xresolution" [ 960 ]
-    "integer yresolution" [ 540 ]
-    "string filename" [ "demo.exr" ]
-PixelFilter "gaussian"
-    "float xradius" [ 1.5 ]
-    "float yradius" [ 1.5 ]
-    "float sigma" [ 0.5 ]
-Sampler "zsobol"
-    "integer pixelsamples" [ 256 ]
-Integrator "volpath"
-    "integer maxdepth" [ 12 ]
-"""
-
-
-def lights():
-    return f"""
-# name: Sky
-AttributeBegin
-    LightSource "infinite"
-        "string filename" [ "textures/sky.exr" ]
-        "float scale" [ {SKY_SCALE} ]
-AttributeEnd
-# name: Sun
-AttributeBegin
-    LightSource "distant"
-        "point3 from" [ {numbers(sun_from())} ]
-        "point3 to" [ 0 0 0 ]
-        "rgb L" [ {numbers(SUN_IRRADIANCE)} ]
-AttributeEnd
-"""
 
 
 def furnish(scene):
@@ -131,15 +79,20 @@ def lay_table(scene):
     scene.place("Pear", translate(bx + 0.275, by - 0.045, z + 0.0365) @ rotate((0, 0, 1), 160) @ rotate((1, 0, 0), 96))
 
 
+def write(scene):
+    head = daylight.head("A breakfast corner", "demo", EYE, TARGET, FOV)
+    scene.write("demo.pbrt", head, daylight.lights(Scene.textures))
+
+
 def main(scenes):
     folder = scenes / "demo"
     scene = Scene(folder)
     textures.write_all(folder / "textures")
-    images.write_exr(folder / "textures" / "sky.exr", sky.sky_image(512, sun_from()))
+    images.write_exr(folder / "textures" / "sky.exr", sky.sky_image(512, daylight.sun_from()))
     (scenes / "spheres").mkdir(exist_ok=True)
-    images.write_exr(scenes / "spheres" / "sky.exr", sky.sky_image(64, sun_from()))
+    images.write_exr(scenes / "spheres" / "sky.exr", sky.sky_image(64, daylight.sun_from()))
     furnish(scene)
-    scene.write("demo.pbrt", head(), lights())
+    write(scene)
     size = sum(p.stat().st_size for p in folder.rglob("*") if p.is_file())
     print(
         f"{folder}: {scene.triangles} triangles in {len(list((folder / 'geometry').iterdir()))} meshes, "
@@ -148,4 +101,4 @@ def main(scenes):
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "scenes")
+    main(daylight.scenes_folder())

@@ -59,6 +59,11 @@ std::string title_name(const document::Session& session) {
     return session.path().empty() ? "untitled" : std::filesystem::path(session.path()).filename().string();
 }
 
+// Until then everything else leaves the processor to the picture.
+bool awaits_fine_picture(const view::ViewStatus& status) {
+    return status.state != view::ViewState::failed && (!status.current || status.divider > 1);
+}
+
 } // namespace
 
 std::string Editor::title() const {
@@ -141,6 +146,7 @@ void Editor::frame(const std::vector<int>* keys) {
     }
     panel_state->mixing.follow(*this, picture_size_, view.denoise);
     refresh_picture();
+    panel_state->balls.hold(scene().instances.live() > 0 && awaits_fine_picture(live_->status()));
     remember_preferences();
 }
 

@@ -93,6 +93,16 @@ void FinalBatch::move(std::size_t shot, int by) {
         if (to->state == State::waits) return std::swap(*from, *to);
 }
 
+void FinalBatch::put(std::size_t shot, std::size_t at) {
+    const std::lock_guard lock(mutex_);
+    Line *from = find(shot), *to = find(at);
+    if (!from || !to || from->state != State::waits || to->state != State::waits) return;
+    if (from < to)
+        std::rotate(from, from + 1, to + 1);
+    else
+        std::rotate(to, from, from + 1);
+}
+
 void FinalBatch::cancel(std::size_t shot) {
     const std::lock_guard lock(mutex_);
     if (Line* line = find(shot); line && (line->state == State::waits || line->state == State::renders))
@@ -146,6 +156,29 @@ void buttons(PanelUi& e, FinalBatch& batch, const FinalBatch::Line& line, bool c
     e.mark("batch.cancel." + line.name);
 }
 
+constexpr const char* row_payload = "restage.batch";
+
+// Those that wait are dragged to another place.
+void name(PanelUi& e, FinalBatch& batch, const FinalBatch::Line& line) {
+    if (line.state != FinalBatch::State::waits) {
+        ImGui::TextUnformatted(line.name.c_str());
+        return tip(line.name.c_str());
+    }
+    ImGui::Selectable(line.name.c_str());
+    tip((line.name + ": drag it to another place in the order").c_str());
+    e.mark("batch.row." + line.name);
+    if (ImGui::BeginDragDropSource()) {
+        ImGui::SetDragDropPayload(row_payload, &line.shot, sizeof line.shot);
+        ImGui::TextUnformatted(line.name.c_str());
+        ImGui::EndDragDropSource();
+    }
+    if (ImGui::BeginDragDropTarget()) {
+        if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(row_payload))
+            batch.put(*static_cast<const std::size_t*>(payload->Data), line.shot);
+        ImGui::EndDragDropTarget();
+    }
+}
+
 } // namespace
 
 void draw_batch(PanelUi& e, FinalBatch& batch, bool can_finish_early) {
@@ -163,8 +196,7 @@ void draw_batch(PanelUi& e, FinalBatch& batch, bool can_finish_early) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted(line.name.c_str());
-        tip(line.name.c_str());
+        name(e, batch, line);
         ImGui::TableNextColumn();
         ImGui::AlignTextToFramePadding();
         const bool failed = line.state == FinalBatch::State::failed;

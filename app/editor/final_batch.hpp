@@ -37,6 +37,7 @@ class FinalBatch { // [any]
     // Of the user. Shots that are through, or unknown, are left alone.
     std::vector<Line> lines() const; // in order
     void move(std::size_t shot, int by); // -1: before the one that waits before it; 1: behind
+    void put(std::size_t shot, std::size_t at); // to the place of that one: both must wait
     void cancel(std::size_t shot);
     void finish_early(std::size_t shot);
 

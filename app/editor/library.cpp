@@ -2,12 +2,14 @@
 #include "library.hpp"
 
 #include "base/file.hpp"
+#include "document/projected.hpp"
 #include "document/session.hpp"
 #include "drop.hpp"
 #include "files.hpp"
 #include "panel_context.hpp"
 #include "panels/state.hpp"
 #include "plugin/registry.hpp"
+#include "project_texture.hpp"
 #include "viewport.hpp"
 
 #include <fmt/format.h>
@@ -109,7 +111,9 @@ std::vector<std::string> categories_of(DocumentContext& e) {
     return {all.begin(), all.end()};
 }
 
-EditContext::Builder giving(const LibraryItem& item, std::vector<InstanceId> objects) {
+namespace {
+
+EditContext::Builder only_giving(const LibraryItem& item, std::vector<InstanceId> objects) {
     if (item.preset)
         return [preset = item.preset, objects = std::move(objects)](const scene::Scene& s) {
             return document::give_preset(s, *preset, objects);
@@ -118,6 +122,15 @@ EditContext::Builder giving(const LibraryItem& item, std::vector<InstanceId> obj
         RESTAGE_TRY(scene::Edit edit, scene::set_material(s, objects, id));
         edit.label = "Material " + s.materials[id].name;
         return edit;
+    };
+}
+
+} // namespace
+
+EditContext::Builder giving(DocumentContext& e, const LibraryItem& item, std::vector<InstanceId> objects) {
+    auto give = only_giving(item, objects);
+    return [&e, give = std::move(give), objects = std::move(objects)](const scene::Scene& s) {
+        return project_where_needed(e, s, give(s), objects);
     };
 }
 
@@ -152,7 +165,7 @@ void give_to_selection(SelectContext& e, const LibraryItem& item) {
     state.done = item.key;
     state.tried.clear();
     state.trial = {};
-    with_images(e, item, [&e, objects](PanelUi&, const LibraryItem& ready) { e.edit(giving(ready, objects)); });
+    with_images(e, item, [&e, objects](PanelUi&, const LibraryItem& ready) { e.edit(giving(e, ready, objects)); });
 }
 
 void follow_hover(SelectContext& e, const LibraryItem* under_mouse) {
@@ -176,10 +189,15 @@ void follow_hover(SelectContext& e, const LibraryItem* under_mouse) {
     if (key.empty() || key == state.tried || key == state.done || now - state.since < dwell) return;
     state.tried = key;
     state.on = objects;
-    with_images(e, *under_mouse, [](PanelUi& ui, const LibraryItem& ready) {
+    with_images(e, *under_mouse, [&e](PanelUi& ui, const LibraryItem& ready) {
         LibraryState& to = ui.panel_state->library;
         if (to.tried != ready.key) return; // the mouse has left it
-        to.trial = {.number = ++to.trials, .build = giving(ready, to.on)};
+        to.trial = {.number = ++to.trials,
+                    .build = [&registry = e.registry(), up = e.up(), give = only_giving(ready, to.on),
+                              on = to.on](const scene::Scene& s) -> Result<scene::Edit> {
+                        RESTAGE_TRY(scene::Edit edit, give(s));
+                        return document::project_where_needed(s, std::move(edit), on, registry, up).edit;
+                    }};
     });
 }
 
@@ -204,7 +222,7 @@ void drop_material(PanelContext& e, const std::string& key, ImVec2 screen) {
 void drop_material(PanelContext& e, const LibraryItem& item, InstanceId on) {
     ask_scope(e, {on}, item.name, [item](SelectContext& editor, const MaterialScope& scope) {
         with_images(editor, item, [&editor, scope](PanelUi&, const LibraryItem& ready) {
-            editor.edit(giving(ready, objects_in(editor.scene(), scope)));
+            editor.edit(giving(editor, ready, objects_in(editor.scene(), scope)));
         });
     });
 }

@@ -53,8 +53,9 @@ std::optional<LibraryItem> library_item(DocumentContext& editor, std::string_vie
 // Categories of the presets, in alphabetical order.
 std::vector<std::string> categories_of(DocumentContext& editor);
 
-// Builds the edit that gives it to these objects. Its images must have been decoded.
-EditContext::Builder giving(const LibraryItem& item, std::vector<InstanceId> objects);
+// Builds the edit that gives it to these objects, and texture coordinates to those that need some, of which a
+// notice tells. Its images must have been decoded.
+EditContext::Builder giving(DocumentContext& editor, const LibraryItem& item, std::vector<InstanceId> objects);
 // Calls `then` with the item once its images are decoded: at once if there are none to decode.
 void with_images(PanelUi& editor, LibraryItem item, std::function<void(PanelUi&, const LibraryItem&)> then);
 // To the selection, as one step.

@@ -2,6 +2,7 @@
 #include "material_balls.hpp"
 
 #include "base/file.hpp"
+#include "base/version.hpp"
 #include "io/image_file.hpp"
 #include "render/material_types.hpp"
 #include "scene/bounds.hpp"
@@ -11,6 +12,7 @@
 #include "view/display.hpp"
 
 #include <fmt/format.h>
+#include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,9 +22,9 @@ namespace restage::editor {
 namespace {
 
 constexpr std::uint32_t side = 128; // [pixel]
-constexpr std::uint32_t samples = 32; // a pixel
+constexpr std::uint32_t samples = 32, first_samples = 4; // a pixel
 constexpr std::uint64_t drawing = 1; // a new number: kept pictures are not used any more
-constexpr std::size_t most_waiting = 64; // balls; older requests are dropped, and repeated once visible again
+constexpr std::size_t most_waiting = 256; // balls; older requests are dropped, and repeated once visible again
 
 // A unit ball around the origin. Textures go around it twice, so that their scale is visible.
 std::shared_ptr<const scene::MeshData> ball_mesh() {
@@ -64,7 +66,7 @@ std::filesystem::path kept_at(const MaterialBalls::Maker& maker, const document:
         t.params.each_value([&](const scene::Value& v) { stable &= v.type != model::ParamType::table; });
     });
     if (!stable) return {};
-    return cache / "balls" / fmt::format("{:016x}-{}-{}.png", key, drawing, side);
+    return cache / "balls" / fmt::format("{:016x}-{}-{}-{}.png", key, version(), drawing, side);
 }
 
 std::vector<std::uint32_t> read_kept(const std::filesystem::path& file) {
@@ -180,7 +182,8 @@ const Texture* MaterialBalls::request(const Maker& maker, const std::string& key
 }
 
 SmallPictures::Job MaterialBalls::job(const Maker& maker, document::Preset preset, bool kept, const Pixels& pixels) {
-    SmallPictures::Job job{.scene = {}, .samples = samples, .next = true};
+    SmallPictures::Job job{
+        .scene = {}, .samples = samples, .coarse = first_samples, .batch = std::uint64_t(ImGui::GetFrameCount())};
     const auto file = std::make_shared<std::filesystem::path>(); // where it is kept; "" = nowhere
     job.prepare = [maker, kept, file, pixels, preset = std::move(preset)](scene::Scene& scene) mutable -> Result<bool> {
         if (kept) {
@@ -193,8 +196,8 @@ SmallPictures::Job MaterialBalls::job(const Maker& maker, document::Preset prese
     };
     job.done = [this, file, pixels](const render::FilmImage& image) {
         view::to_display(image, {}, *pixels);
-        ++rendered_;
         keep(*file, *pixels);
+        ++rendered_;
     };
     return job;
 }
@@ -203,12 +206,17 @@ void MaterialBalls::poll() {
     for (const SmallPictures::Made& made : renders_.take()) {
         const auto found = std::ranges::find(asked_, made.number, &Asked::number);
         if (found == asked_.end()) continue; // forgotten, or asked for again
-        if (const Asked& one = *found; one.pixels->size() == std::size_t(side) * side) {
-            auto& texture = balls_[one.key].texture;
+        std::vector<std::uint32_t> pixels;
+        if (made.coarse)
+            view::to_display(made.image, {}, pixels);
+        else
+            pixels = *found->pixels;
+        if (pixels.size() == std::size_t(side) * side) {
+            auto& texture = balls_[found->key].texture;
             if (!texture) texture = pool_.take();
-            texture->set(side, side, *one.pixels);
+            texture->set(side, side, pixels);
         }
-        asked_.erase(found);
+        if (!made.coarse) asked_.erase(found);
     }
 }
 

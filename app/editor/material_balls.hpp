@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // MaterialBalls: a path-traced ball for each listed material, of the scene or a preset, in a neutral studio, rendered
-// on first use by a separate renderer on a low-priority thread. Balls of presets are kept on disk.
+// on first use by a separate renderer on a thread with the live picture's priority, so that the two share the
+// processor. Balls of presets are kept on disk.
 #pragma once
 
 #include "document/preset.hpp"
@@ -22,15 +23,17 @@ namespace restage::editor {
 
 class MaterialBalls {
   public:
-    explicit MaterialBalls(std::function<void()> wake) : renders_(std::move(wake), "a ball of a material") {}
+    explicit MaterialBalls(std::function<void()> wake) : renders_(std::move(wake), "a ball of a material", 5) {}
 
     using Maker = SmallPictures::Maker;
     // [main] The ball as it was last rendered, null until there is one; one that is older than the scene's materials
-    // and textures is requested again. The latest request is rendered first.
+    // and textures is requested again. Those requested in the latest frame are rendered first, in order: a coarse
+    // picture of each, then the full ones.
     const Texture* ball(const Maker& maker, const scene::Scene& scene, scene::Id<scene::Material> id);
     // Likewise of a preset, again when its file changes. Its images are decoded on the thread.
     const Texture* ball(const Maker& maker, const document::Preset& preset);
     void poll(); // [main] once a frame
+    void hold(bool on) { renders_.hold(on); } // [main] while true nothing is rendered; kept balls are read
     void forget(); // [main] of another document: presets stay
     std::size_t rendered() const { return rendered_; } // [any] how many; those found on disk do not count
 

@@ -2,6 +2,7 @@
 #include "pick_tool.hpp"
 
 #include "panel_context.hpp"
+#include "project_texture.hpp"
 #include "query/navigation.hpp"
 #include "query/raycast.hpp"
 #include "scene/edits.hpp"
@@ -50,8 +51,8 @@ PickTool material_eyedropper(const SelectContext& editor) {
                 const scene::Instance* from = e.scene().instances.find(id);
                 if (!from || !from->material) return;
                 e.material_clipboard = from->material;
-                e.edit([to, material = from->material](const scene::Scene& s) {
-                    return scene::set_material(s, to, material);
+                e.edit([&e, to, material = from->material](const scene::Scene& s) {
+                    return project_where_needed(e, s, scene::set_material(s, to, material), to);
                 });
             }};
 }

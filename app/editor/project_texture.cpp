@@ -2,9 +2,9 @@
 #include "project_texture.hpp"
 
 #include "actions.hpp"
+#include "document/projected.hpp"
 #include "panel_context.hpp"
 #include "plugin/registry.hpp"
-#include "scene/bounds.hpp"
 #include "scene/box_projection.hpp"
 #include "scene/texture_map.hpp"
 #include "theme.hpp"
@@ -18,21 +18,8 @@
 
 namespace restage::editor {
 
-namespace {
-
-// With which a texture covers the largest of the objects once.
-double covering_size(const scene::Scene& scene, std::span<const InstanceId> objects) {
-    double size = 0;
-    for (const InstanceId id : objects)
-        if (const scene::Bounds box = scene::world_bounds(scene, id); !box.empty())
-            size = std::max({size, box.size().x, box.size().y, box.size().z});
-    return size > 0 ? size : 1;
-}
-
-} // namespace
-
 void project_texture_dialog(SelectContext& e) {
-    scene::BoxOptions options{.size = covering_size(e.scene(), e.selection.instances()), .up = e.up()};
+    scene::BoxOptions options{.size = scene::covering_size(e.scene(), e.selection.instances()), .up = e.up()};
     e.show_modal("Project texture", [options, size = float(options.size)](PanelContext& editor) mutable {
         dialog_width(400);
         ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + ImGui::GetItemRectSize().x);
@@ -74,17 +61,20 @@ Result<scene::Edit> project_where_needed(DocumentContext& e, const scene::Scene&
     if (!edit) return edit;
     scene::Scene after = scene; // shares its data
     scene::apply(after, *edit);
-    const std::vector<InstanceId> bare = scene::without_uv(after, material);
-    if (bare.empty()) return edit;
-    const auto projected =
-        scene::project_box(after, bare, {.size = covering_size(after, bare), .world_axes = false, .up = e.up()});
-    if (!projected) return edit; // meshes without triangles
-    edit->changes.insert(edit->changes.end(), projected->changes.begin(), projected->changes.end());
-    const std::string name = bare.size() == 1 ? after.instances[bare[0]].name : fmt::format("{} objects", bare.size());
-    e.notices.add(LogLevel::info, fmt::format("{} had no texture coordinates: the texture is projected on each side. "
-                                              "Project texture changes its size",
-                                              name));
-    return edit;
+    return project_where_needed(e, scene, std::move(edit), scene::without_uv(after, material));
+}
+
+Result<scene::Edit> project_where_needed(DocumentContext& e, const scene::Scene& scene, Result<scene::Edit> edit,
+                                         std::span<const InstanceId> objects) {
+    if (!edit) return edit;
+    auto [whole, projected] = document::project_where_needed(scene, std::move(*edit), objects, e.registry(), e.up());
+    if (!projected.empty())
+        e.notices.add(LogLevel::info,
+                      fmt::format("{} had no texture coordinates: the texture is projected on each side. Project "
+                                  "texture changes its size",
+                                  projected.size() == 1 ? scene.instances[projected[0]].name
+                                                        : fmt::format("{} objects", projected.size())));
+    return std::move(whole);
 }
 
 void missing_uv_note(SelectContext& e) {

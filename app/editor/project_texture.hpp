@@ -5,6 +5,8 @@
 #include "base/result.hpp"
 #include "scene/edit.hpp"
 
+#include <span>
+
 namespace restage::editor {
 
 class DocumentContext;
@@ -17,6 +19,9 @@ void project_texture_dialog(SelectContext& editor);
 // mesh has no texture coordinates, with a notice. `scene`: before the edit.
 Result<scene::Edit> project_where_needed(DocumentContext& editor, const scene::Scene& scene, Result<scene::Edit> edit,
                                          scene::Id<scene::Material> material);
+// Likewise of one that gives these objects a material.
+Result<scene::Edit> project_where_needed(DocumentContext& editor, const scene::Scene& scene, Result<scene::Edit> edit,
+                                         std::span<const scene::Id<scene::Instance>> objects);
 
 // In the inspector, below a material with textures: a warning if the object's mesh has no texture coordinates.
 void missing_uv_note(SelectContext& editor);

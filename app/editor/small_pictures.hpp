@@ -25,9 +25,9 @@ namespace restage::editor {
 
 class SmallPictures {
   public:
-    // `what`: for the message that one was not rendered.
-    explicit SmallPictures(std::function<void()> wake, std::string what = "a small picture")
-        : wake_(std::move(wake)), what_(std::move(what)) {}
+    // `what`: for the message that one was not rendered. `lower`: the thread's priority, as lower_thread_priority.
+    explicit SmallPictures(std::function<void()> wake, std::string what = "a small picture", int lower = 10)
+        : wake_(std::move(wake)), what_(std::move(what)), lower_(lower) {}
     ~SmallPictures();
     SmallPictures(const SmallPictures&) = delete;
     SmallPictures& operator=(const SmallPictures&) = delete;
@@ -42,17 +42,21 @@ class SmallPictures {
         std::uint64_t number = 0; // of the caller's; an earlier job of that number is dropped
         scene::Scene scene;       // its film has the picture's size
         std::uint32_t samples = 0; // a pixel
-        bool next = false; // before all that wait
-        // [worker] Makes the scene first, or finds the picture elsewhere and returns false: nothing is rendered.
+        std::uint32_t coarse = 0; // > 0: a picture of so few comes first; the full one waits behind all other jobs
+        std::uint64_t batch = 0; // before those that wait of smaller numbers, and behind those of its own
+        // [worker] Makes the scene, or finds the picture elsewhere and returns false: nothing is rendered. Done for all
+        // that wait before the next is rendered.
         std::function<Result<bool>(scene::Scene&)> prepare = {};
-        std::function<void(const render::FilmImage&)> done = {}; // [worker] what was rendered
+        std::function<void(const render::FilmImage&)> done = {}; // [worker] the full picture
     };
     struct Made {
         std::uint64_t number = 0;
         render::FilmImage image; // of no pixels: it was not rendered; the log says why if it could not be
+        bool coarse = false; // the full one follows
     };
     void ask(const Maker& maker, Job job); // [main] in the order asked
-    void drop(std::uint64_t number); // [main] if it still waits
+    void drop(std::uint64_t number); // [main] unless it is made
+    void hold(bool on); // [main] while true nothing is rendered, though scenes are made
     struct Place {
         std::size_t before = 0; // how many are rendered before it; 0 = it is rendered now,
         double seconds = 0; // for so long
@@ -62,6 +66,8 @@ class SmallPictures {
     void forget(); // [main] drops all jobs, and what they made
 
   private:
+    void insert(Job job);
+    Result<> prepare(Job& waiting, std::unique_lock<std::mutex>& lock);
     void work(Maker maker);
 
     std::function<void()> wake_;
@@ -73,6 +79,8 @@ class SmallPictures {
     std::optional<std::uint64_t> now_; // number of the job being rendered
     std::chrono::steady_clock::time_point since_;
     bool stop_ = false, drop_ = false; // drop_: the job being rendered
+    bool held_ = false;
+    int lower_;
     std::thread thread_;
 };
 

@@ -154,6 +154,14 @@ Result<Edit> project_box(const Scene& scene, std::span<const Id<Instance>> objec
     return edit;
 }
 
+double covering_size(const Scene& scene, std::span<const Id<Instance>> objects) {
+    double size = 0;
+    for (const Id<Instance> id : objects)
+        if (const Bounds box = world_bounds(scene, id); !box.empty())
+            size = std::max({size, box.size().x, box.size().y, box.size().z});
+    return size > 0 ? size : 1;
+}
+
 bool has_uv(const Mesh& mesh) { return (mesh.data && !mesh.data->uvs.empty()) || quadric_of(mesh).has_value(); }
 
 std::vector<Id<Instance>> without_uv(const Scene& scene, Id<Material> material) {

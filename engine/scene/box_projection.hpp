@@ -26,6 +26,9 @@ struct BoxOptions {
 // coordinates are fixed.
 Result<Edit> project_box(const Scene&, std::span<const Id<Instance>>, const BoxOptions&);
 
+// The size of a repetition with which a texture covers the largest of the objects once; 1 if they have no size.
+double covering_size(const Scene&, std::span<const Id<Instance>>);
+
 // Whether its textures have coordinates: a mesh with uv, or a sphere, disk or cylinder. On others each triangle shows
 // the whole texture.
 bool has_uv(const Mesh&);

@@ -24,7 +24,7 @@ _sentences.install(_core)  # before its functions get their public names
 
 from ._core import (
     Action, ActionResult,
-    Camera, Cameras, Cancelled, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
+    Camera, Cameras, CameraView, Cancelled, Error, Group, Groups, Light, Lights, Material, Materials, Object, Objects, Parameter, Picture,
     Plugin, Progress, Report, ReportEntry, Selection, Session, Sky, Step, Texture, Textures,
     load_plugins, material_types, merge, new, open, plugins, reload_plugins, sky_types, texture_types,
 )
@@ -60,7 +60,7 @@ def bundled_scene(name: str) -> _pathlib.Path:
 
 __all__ = [
     "Action", "ActionResult",
-    "Bsdf", "BsdfSample", "Camera", "Cameras", "Cancelled", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
+    "Bsdf", "BsdfSample", "Camera", "Cameras", "CameraView", "Cancelled", "CheckReport", "CheckStep", "Error", "Group", "Groups", "Light", "Lights", "Material", "Materials",
     "Object", "Objects", "Parameter", "Picture", "Plugin", "Preset", "Progress", "Report", "ReportEntry", "Selection", "Session",
     "Sky", "Step", "Texture", "Textures", "bundled_scene", "check", "load_plugins", "material_types", "merge", "new", "open", "plugins", "presets", "reload_plugins",
     "sky_types", "spread", "texture_types",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The module restage._core; the package restage (python/restage) gives its contents their public names.
 #include "base/version.hpp"
+#include "camera_moves.hpp"
 #include "collections.hpp"
 #include "picture.hpp"
 
@@ -33,6 +34,7 @@ NB_MODULE(_core, m) {
     bind_actions(m, session);
     bind_render(m, session);
     bind_sky(session);
+    bind_camera_moves(m, session);
     bind_looks(session);
     bind_bsdf(m);
 }

@@ -2,6 +2,7 @@
 // Objects, groups and selections: the things placed in a scene, and their common operations.
 #include "workspace.hpp"
 
+#include "document/projected.hpp"
 #include "query/support.hpp"
 #include "scene/arrange.hpp"
 #include "scene/box_projection.hpp"
@@ -11,6 +12,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace restage::python {
@@ -36,6 +38,14 @@ Bounds bounds_of(Workspace& workspace, const Objects& ids) {
         bounds.add(world_bounds(workspace.scene(), id));
     if (bounds.empty()) throw Failure("there is no geometry, so there are no bounds");
     return bounds;
+}
+
+// And texture coordinates to those that need some and have none.
+void give_material(Workspace& workspace, const Objects& ids, Id<Material> material) {
+    Edit given = take(set_material(workspace.scene(), ids, material));
+    workspace.edit(document::project_where_needed(workspace.scene(), std::move(given), ids, workspace.host().registry(),
+                                                  workspace.up())
+                       .edit);
 }
 
 // A matrix about a point, in world space.
@@ -227,9 +237,12 @@ void bind_verbs(nb::class_<C>& c) {
             "set_material",
             [](const C& self, const Handle<Material>& material) {
                 if (material.in != self.in) throw Failure("this material belongs to another session");
-                self.in->edit(set_material(self.in->scene(), objects_of(self), material.id));
+                give_material(*self.in, objects_of(self), material.id);
             },
-            "material"_a, "Gives all its objects this material.")
+            "material"_a,
+            "Gives all its objects this material. Those whose mesh has no texture coordinates get some by box "
+            "projection, "
+            "if its textures need them: see project_texture.")
         .def(
             "project_texture",
             [](const C& self, double size, const std::string& axes) {
@@ -309,10 +322,11 @@ nb::class_<ObjectHandle> bind_things(nb::module_& m) {
             },
             [](const ObjectHandle& h, const Handle<Material>& material) {
                 if (material.in != h.in) throw Failure("this material belongs to another session");
-                const Id<Instance> ids[] = {h.id};
-                h.in->edit(set_material(h.in->scene(), ids, material.id));
+                give_material(*h.in, {h.id}, material.id);
             },
-            "Its material.")
+            "Its material. Given one with textures that need coordinates, an object whose mesh has none gets some by "
+            "box "
+            "projection: see project_texture.")
         .def_prop_ro(
             "group",
             [](const ObjectHandle& h) -> std::optional<GroupHandle> {

@@ -26,3 +26,17 @@ def test_a_preset_is_added_once(tmp_path):
         broken.write_text('{"restage": "material", "name": "a", "category": "b",\n"type": "nothing"}')
         with pytest.raises(restage.Error, match='broken.json:2: no plugin provides the material type "nothing"'):
             session.add_preset(broken)
+
+
+def test_a_textured_preset_is_projected_on_objects_without_coordinates():
+    with restage.new() as session:
+        corners = [[0, 0, 0], [2, 0, 0], [0, 3, 0]]
+        bare = session.add_mesh(corners, [[0, 1, 2]], name="Bare")
+        mapped = session.add_mesh(corners, [[0, 1, 2]], name="Mapped", uvs=[[0, 0], [1, 0], [0, 1]])
+        tiles = next(p for p in restage.presets() if p.name == "Tiles, black and white")
+        material = session.add_preset(tiles.path)
+        before = len(session.history)
+        bare.material = mapped.material = material
+        assert len(session.history) == before + 2
+        assert bare.uvs is not None and bare.uvs.max() == pytest.approx(1)
+        assert mapped.uvs.tolist() == [[0, 0], [1, 0], [0, 1]]

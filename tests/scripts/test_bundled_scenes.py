@@ -140,7 +140,7 @@ def test_no_shape_depends_on_the_last_bits_of_a_library(seed, tmp_path, monkeypa
             monkeypatch.setattr(owner, name, shaken(getattr(owner, name)))
     scene = generator.Scene(tmp_path / "demo")
     generator.furnish(scene)
-    scene.write("demo.pbrt", generator.head(), generator.lights())
+    generator.write(scene)
     assert_same(SCENES / "demo", tmp_path / "demo")
     rooms.main(tmp_path)
     assert_same_room(tmp_path)

@@ -93,6 +93,23 @@ TEST_CASE("a batch renders in the order that the user makes", "[ui]") {
     CHECK((states == std::vector{State::done, State::cancelled, State::cancelled, State::failed}));
 }
 
+TEST_CASE("a dragged picture takes the place of the one it is dropped on", "[ui]") {
+    FinalBatch batch({"a", "b", "c", "d", "e"});
+    CHECK(batch.next() == 0);
+    batch.put(4, 1);
+    CHECK(order(batch) == "aebcd");
+    batch.put(4, 3);
+    CHECK(order(batch) == "abcde");
+    batch.put(1, 2);
+    CHECK(order(batch) == "acbde");
+    batch.put(3, 0); // not before what renders
+    batch.put(0, 3); // nor does that move
+    batch.put(3, 3);
+    batch.put(9, 3);
+    CHECK(order(batch) == "acbde");
+    CHECK(batch.next() == 2);
+}
+
 TEST_CASE("a batch is reordered, paused and resumed, and one of its pictures cancelled", "[ui]") {
     const test::TemporaryFolder folder;
     Headless h("cornell/cornell.pbrt");
@@ -107,7 +124,24 @@ TEST_CASE("a batch is reordered, paused and resumed, and one of its pictures can
         IM_CHECK(jobs.picture_paused());
         IM_CHECK(wait_until(ctx, [&] { return jobs.progress() > 0; }));
         h.click(ctx, "batch.up.Third");
-        IM_CHECK(h.find(ctx, "batch.state.Third").y < h.find(ctx, "batch.state.Second").y);
+        const auto is_above = [&](const char* a, const char* b) {
+            return h.find(ctx, std::string("batch.state.") + a).y < h.find(ctx, std::string("batch.state.") + b).y;
+        };
+        IM_CHECK(is_above("Third", "Second"));
+        const auto drag_onto = [&](const char* a, const char* b) {
+            const ImVec4 from = h.find(ctx, std::string("batch.row.") + a),
+                         to = h.find(ctx, std::string("batch.row.") + b);
+            ctx->MouseMoveToPos({from.x + 10, (from.y + from.w) / 2});
+            ctx->MouseDown();
+            ctx->MouseMoveToPos({from.x + 20, (from.y + from.w) / 2 + 4});
+            ctx->MouseMoveToPos({to.x + 20, (to.y + to.w) / 2});
+            ctx->MouseUp();
+            ctx->Yield(2);
+        };
+        drag_onto("Third", "Second");
+        IM_CHECK(is_above("Second", "Third"));
+        drag_onto("Third", "Second");
+        IM_CHECK(is_above("Third", "Second"));
 
         h.click(ctx, "job.pause");
         IM_CHECK(!jobs.picture_paused()); // the editor has the processor meanwhile

@@ -7,6 +7,7 @@
 #include "document/preset.hpp"
 #include "editor/material_balls.hpp"
 #include "editor/shown_scene.hpp"
+#include "scene/bounds.hpp"
 #include "temporary_folder.hpp"
 
 using namespace restage;
@@ -185,6 +186,39 @@ TEST_CASE("hovering a ball tries it on the selection, without a step", "[ui][pre
         h.focus(ctx, "Log"); // the panel is gone, and so is what it showed
         IM_CHECK(!editor::current_trial(state).build);
         IM_CHECK(h.step() == 0);
+    });
+}
+
+TEST_CASE("a textured preset is projected on a mesh without coordinates; equal names have marks of their own",
+          "[ui][presets]") {
+    test::TemporaryFolder folder;
+    Headless h("cornell/cornell.pbrt", 1, {1500, 1000}, folder.path());
+    document::Session& session = h.editor().session_for_changes();
+    auto square = std::make_shared<scene::MeshData>();
+    square->positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    square->triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene::compute_bounds(*square);
+    const auto mesh = h.scene().meshes.next();
+    REQUIRE(session.edit(scene::insert(h.scene(), scene::Mesh{.name = "square", .data = square}, "Add")));
+    REQUIRE(session.edit(scene::insert(h.scene(), scene::Instance{.name = "Bare", .mesh = mesh}, "Add")));
+    const std::size_t steps = h.step();
+    h.select("Bare");
+    const std::string tiles = "Tiles, black and white";
+    h.play("click", [&](ImGuiTestContext* ctx) {
+        h.focus(ctx, "Materials");
+        h.click(ctx, "materials.search");
+        ctx->KeyCharsReplace(tiles.c_str());
+        h.click(ctx, "materials." + tiles);
+        IM_CHECK(h.step() == steps + 1);
+        IM_CHECK(material_of(h, "Bare")->name == tiles);
+        const auto id = session.find<scene::Instance>("Bare");
+        IM_CHECK(!h.scene().meshes[h.scene().instances[id].mesh].data->uvs.empty());
+        IM_CHECK(h.has(ctx, "materials." + tiles) &&
+                 h.has(ctx, "materials." + tiles + "#2")); // the scene's, the preset
+        IM_CHECK(h.find(ctx, "materials." + tiles + "#2").y > h.find(ctx, "materials." + tiles).y);
+        h.editor().undo();
+        ctx->Yield(2);
+        IM_CHECK(h.scene().instances[id].mesh == mesh);
     });
 }
 

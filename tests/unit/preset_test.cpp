@@ -2,8 +2,12 @@
 // Material presets: those that come with Restage fit the plugins' tables and name their sources; errors name the line;
 // writing and reading keeps textures and components; an equal material of the scene is reused.
 #include "document/preset.hpp"
+#include "document/projected.hpp"
 #include "document/session.hpp"
+#include "paths.hpp"
 #include "project_room.hpp"
+#include "scene/bounds.hpp"
+#include "scene/box_projection.hpp"
 #include "scene/same_material.hpp"
 
 #include <algorithm>
@@ -146,6 +150,53 @@ TEST_CASE("an image without a file is saved beside the preset", "[presets]") {
     REQUIRE(read);
     REQUIRE(document::read_images(*read));
     read->parts.images.each([&](auto, const Image& i) { CHECK(i.data->values == pixels->values); });
+}
+
+TEST_CASE("a textured material gives coordinates to objects that have none, if its textures need some", "[presets]") {
+    Fixture f;
+    document::Session session(f.registry);
+    f.opened(session);
+    REQUIRE(write_file_atomic(f.at("planks.json"), planks));
+    auto planks_read = document::read_preset(f.at("planks.json"), f.registry);
+    auto gold = document::read_preset(test::source_dir() / "materials/gold.json", f.registry);
+    REQUIRE(planks_read);
+    REQUIRE(gold);
+    REQUIRE(document::read_images(*planks_read));
+    Scene s = session.scene();
+    const auto bare = s.meshes.next(), mapped = Id<Mesh>{bare.value + 1};
+    auto with = std::make_shared<MeshData>();
+    with->positions = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}};
+    with->triangles = {{0, 1, 2}};
+    compute_bounds(*with);
+    apply(s, insert(s, Mesh{.name = "bare", .data = std::make_shared<MeshData>(*with)}, ""));
+    with->uvs = {{0, 0}, {1, 0}, {0, 1}};
+    apply(s, insert(s, Mesh{.name = "mapped", .data = with}, ""));
+    const auto first = s.instances.next();
+    const Id<Instance> both[] = {first, {first.value + 1}};
+    apply(s, insert(s, Instance{.name = "a", .mesh = bare}, ""));
+    apply(s, insert(s, Instance{.name = "b", .mesh = mapped}, ""));
+    const auto give = [&](const document::Preset& preset) {
+        return document::project_where_needed(s, document::give_preset(s, preset, both).value(), both, f.registry,
+                                              {0, 1, 0});
+    };
+    CHECK(give(*gold).objects.empty()); // has no textures
+    const document::Projected given = give(*planks_read);
+    CHECK(given.objects == std::vector{first});
+    CHECK(given.edit.label == "Material Planks");
+    apply(s, given.edit);
+    CHECK(s.instances[both[1]].mesh == mapped);
+    const Mesh& made = s.meshes[s.instances[first].mesh];
+    REQUIRE(has_uv(made));
+    float widest = 0;
+    for (const glm::vec2& uv : made.data->uvs)
+        widest = std::max({widest, uv.x, uv.y});
+    CHECK(widest == 1); // covers it once
+    CHECK(give(*planks_read).objects.empty()); // it has them now
+    const auto material = s.instances[first].material;
+    apply(s, set_param(s, material, "amount", Value::number(0.5f)).value());
+    const Id<Instance> third[] = {s.instances.next()};
+    apply(s, insert(s, Instance{.name = "c", .mesh = bare, .material = material}, ""));
+    CHECK(document::project_where_needed(s, {}, third, f.registry, {0, 1, 0}).objects.size() == 1); // its oak
 }
 
 TEST_CASE("giving a preset reuses an equal material, else adds one, as one step", "[presets]") {

@@ -119,7 +119,9 @@ void material_choice(SelectContext& e, MaterialId current) {
     const auto selected = e.selection.instances();
     const scene::Material* material = e.scene().materials.find(current);
     const auto assign = [&](MaterialId to) {
-        e.edit([selected, to](const scene::Scene& s) { return scene::set_material(s, selected, to); });
+        e.edit([&e, selected, to](const scene::Scene& s) {
+            return project_where_needed(e, s, scene::set_material(s, selected, to), selected);
+        });
     };
     form_row("Material", "Choose another of the scene's materials for the selection");
     if (ImGui::BeginCombo("##choose", material ? material->name.c_str() : "none", ImGuiComboFlags_HeightLargest)) {

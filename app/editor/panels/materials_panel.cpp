@@ -15,6 +15,7 @@
 #include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
+#include <map>
 
 namespace restage::editor {
 
@@ -68,15 +69,21 @@ void context_menu(SelectContext& e, const LibraryItem& item) {
     ImGui::EndPopup();
 }
 
+// Materials may have equal names: the second "Gold" has the mark "Gold#2".
+std::string unique_mark(const std::string& name, std::map<std::string, int>& taken) {
+    const int count = ++taken[name];
+    return count == 1 ? name : fmt::format("{}#{}", name, count);
+}
+
 // Whether the mouse is over it.
-bool cell(SelectContext& e, const LibraryItem& item, float side) {
+bool cell(SelectContext& e, const LibraryItem& item, const std::string& mark, float side) {
     ImGui::PushID(item.key.c_str());
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool clicked =
         ImGui::InvisibleButton("ball", {side, side + ImGui::GetTextLineHeight() + 4}, ImGuiButtonFlags_EnableNav);
     const bool hovered = ImGui::IsItemHovered(), visible = ImGui::IsItemVisible();
-    e.mark("materials." + item.name);
+    e.mark("materials." + mark);
     if (clicked) give_to_selection(e, item);
     if (ImGui::BeginDragDropSource()) {
         ImGui::SetDragDropPayload(material_payload, item.key.c_str(), item.key.size() + 1);
@@ -90,7 +97,7 @@ bool cell(SelectContext& e, const LibraryItem& item, float side) {
     const float round = side * 0.08f;
     if (const Texture* ball = visible ? ball_of(e, item) : nullptr) {
         draw->AddImageRounded(ball->ref(), at, end, {0, 0}, {1, 1}, IM_COL32_WHITE, round);
-        e.mark("materials.ball." + item.name, at, end);
+        e.mark("materials.ball." + mark, at, end);
     } else {
         draw->AddRectFilled(at, end, ImGui::GetColorU32(ImGuiCol_FrameBg), round);
     }
@@ -154,6 +161,7 @@ void draw_materials(SelectContext& e) {
             std::max(1, int((ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x) / step));
         int in_row = 0;
         std::string_view group;
+        std::map<std::string, int> marks;
         for (const LibraryItem& item : items) {
             if (item.category != group) {
                 group = item.category;
@@ -161,7 +169,7 @@ void draw_materials(SelectContext& e) {
                 ImGui::SeparatorText(item.category.c_str());
             }
             if (in_row++ % columns) ImGui::SameLine();
-            if (cell(e, item, side)) under_mouse = &item;
+            if (cell(e, item, unique_mark(item.name, marks), side)) under_mouse = &item;
         }
         if (items.empty() && !state.search.empty())
             empty_note("Nothing matches.");
