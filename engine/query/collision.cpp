@@ -93,18 +93,7 @@ struct Collision::Impl {
 
     double entry(const Obstacle& one, const dvec3& displaced, const dvec3& by, double margin) const {
         const dvec3 from = displaced + one.apart;
-        double enter = 0, exit = infinity;
-        for (int i = 0; i < 3; ++i) {
-            const double low = one.box.lower[i] - margin - (box.upper[i] + from[i]);
-            const double high = one.box.upper[i] + margin - (box.lower[i] + from[i]);
-            if (by[i] == 0) {
-                if (low > 0 || high < 0) return infinity;
-                continue;
-            }
-            enter = std::max(enter, (by[i] > 0 ? low : high) / by[i]);
-            exit = std::min(exit, (by[i] > 0 ? high : low) / by[i]);
-        }
-        return enter <= exit ? enter : infinity;
+        return box_entry(one.box.lower - box.upper - from - margin, one.box.upper - box.lower - from + margin, by, 1);
     }
 
     // The first contact. Triangles that overlap at the start do not count.

@@ -14,6 +14,20 @@
 
 namespace restage::query {
 
+// The first t in [0, most] at which t * by is in that box; infinite: none.
+inline double box_entry(const glm::dvec3& lower, const glm::dvec3& upper, const glm::dvec3& by, double most) {
+    double enter = 0, exit = most;
+    for (int i = 0; i < 3; ++i) {
+        if (by[i] == 0) {
+            if (lower[i] > 0 || upper[i] < 0) return std::numeric_limits<double>::infinity();
+            continue;
+        }
+        enter = std::max(enter, (by[i] > 0 ? lower : upper)[i] / by[i]);
+        exit = std::min(exit, (by[i] > 0 ? upper : lower)[i] / by[i]);
+    }
+    return enter <= exit ? enter : std::numeric_limits<double>::infinity();
+}
+
 class TriangleTree {
   public:
     // Triangles without area are left out: others share their edges.
@@ -36,30 +50,11 @@ class TriangleTree {
                           double margin, const double& most, F&& visit);
 
   private:
-    static double entry(const Node& a, const glm::dvec3& offset, const glm::dvec3& by, const Node& b, double margin,
-                        double most); // infinite: never
-
     std::shared_ptr<const scene::MeshData> mesh_;
     glm::dmat4 place_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> order_;
 };
-
-inline double TriangleTree::entry(const Node& a, const glm::dvec3& offset, const glm::dvec3& by, const Node& b,
-                                  double margin, double most) {
-    double enter = 0, exit = most;
-    for (int i = 0; i < 3; ++i) {
-        const double low = double(b.lower[i]) - margin - (double(a.upper[i]) + offset[i]);
-        const double high = double(b.upper[i]) + margin - (double(a.lower[i]) + offset[i]);
-        if (by[i] == 0) {
-            if (low > 0 || high < 0) return std::numeric_limits<double>::infinity();
-            continue;
-        }
-        enter = std::max(enter, (by[i] > 0 ? low : high) / by[i]);
-        exit = std::min(exit, (by[i] > 0 ? high : low) / by[i]);
-    }
-    return enter <= exit ? enter : std::numeric_limits<double>::infinity();
-}
 
 template <class F>
 void TriangleTree::each_pair(const TriangleTree& a, const glm::dvec3& offset, const glm::dvec3& by,
@@ -71,7 +66,9 @@ void TriangleTree::each_pair(const TriangleTree& a, const glm::dvec3& offset, co
     };
     std::vector<Pair> stack;
     const auto look = [&](std::uint32_t i, std::uint32_t j) {
-        const double enter = entry(a.nodes_[i], offset, by, b.nodes_[j], margin, most);
+        const Node &x = a.nodes_[i], &y = b.nodes_[j];
+        const double enter = box_entry(glm::dvec3(y.lower) - glm::dvec3(x.upper) - offset - margin,
+                                       glm::dvec3(y.upper) - glm::dvec3(x.lower) - offset + margin, by, most);
         if (enter <= most) stack.push_back({i, j, enter});
     };
     look(0, 0);
