@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "copy_paste.hpp"
 
+#include "collide_drag.hpp"
 #include "document/clipboard.hpp"
 #include "document/session.hpp"
 #include "editor.hpp"
@@ -43,8 +44,11 @@ void add(Editor& e, const document::Copy& copied) {
             e.notices.add(LogLevel::error, done.error().message);
         return;
     }
-    document::Pasted pasted =
-        document::paste(session.scene(), copied.scene, aside(e, scene::world_bounds(copied.scene)));
+    const glm::dvec3 offset = aside(e, scene::world_bounds(copied.scene));
+    std::vector<InstanceId> all;
+    copied.scene.instances.each([&](InstanceId id, const scene::Instance&) { all.push_back(id); });
+    const glm::dvec3 room = room_for(e, copied.scene, all, glm::translate(glm::dmat4(1), offset));
+    document::Pasted pasted = document::paste(session.scene(), copied.scene, offset + room);
     session.edit(std::move(pasted.edit));
     if (pasted.instances.empty())
         e.selection.set_light(pasted.light);
@@ -91,7 +95,9 @@ void paste(Editor& e) {
             ids.push_back(id);
             bounds.add(scene::world_bounds(e.scene(), id));
         }
-        auto made = e.session_for_changes().duplicate(ids, glm::translate(glm::dmat4(1), aside(e, bounds)));
+        const glm::dvec3 offset = aside(e, bounds);
+        const glm::dvec3 room = room_for(e, e.scene(), ids, glm::translate(glm::dmat4(1), offset));
+        auto made = e.session_for_changes().duplicate(ids, glm::translate(glm::dmat4(1), offset + room));
         if (!made) return e.notices.add(LogLevel::error, made.error().message);
         e.selection.things.copied(ids, *made);
         return e.selection.set(*made);

@@ -85,6 +85,20 @@ glm::dvec3 DragPath::update(bool lift, const Mouse& mouse, std::optional<glm::dv
     return now_;
 }
 
+std::vector<std::pair<InstanceId, glm::dmat4>> Drag::thing() const {
+    std::vector<std::pair<InstanceId, glm::dmat4>> thing;
+    for (std::size_t i = 0; i < start.size(); ++i)
+        thing.emplace_back(originals[i], start[i].second);
+    return thing;
+}
+
+std::unordered_set<InstanceId> Drag::dragged() const {
+    std::unordered_set<InstanceId> ids;
+    for (const auto& [id, place] : start)
+        ids.insert(id);
+    return ids;
+}
+
 void begin_drag(PanelContext& e, Drag& drag, bool copy) {
     const scene::Scene& s = e.scene();
     drag.active = true;

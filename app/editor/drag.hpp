@@ -10,12 +10,14 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 namespace restage::editor {
 
 class PanelContext;
+struct Colliding; // collide_drag.hpp
 struct Snapping; // snap_drag.hpp
 
 // Displacement of a moved thing as the mouse moves: over the plane of `up` or along an axis handle, and
@@ -30,6 +32,8 @@ class DragPath {
     void begin(const glm::dvec3& at, const glm::dvec3& up, const Mouse& mouse, bool handle);
     // `handle`: an axis handle's displacement; none = over the plane. `step`: of movement from now on; 0 = any.
     glm::dvec3 update(bool lift, const Mouse& mouse, std::optional<glm::dvec3> handle, double step);
+    // It was displaced by this instead: where the next change between the two continues.
+    void stop_at(const glm::dvec3& by) { now_ = by; }
 
   private:
     double height(const Mouse& mouse) const; // along up_, of the point nearest to the ray
@@ -55,6 +59,12 @@ struct Drag {
     glm::dmat4 frame{1};
     glm::mat4 current{1};
     std::shared_ptr<Snapping> snapping; // of moves; null until it is used
+    std::shared_ptr<Colliding> colliding; // likewise
+
+    // Without copies, which are not in the scene yet when the drag begins: originals at the places of what is dragged.
+    std::vector<std::pair<InstanceId, glm::dmat4>> thing() const;
+    // What is dragged.
+    std::unordered_set<InstanceId> dragged() const;
 };
 
 // Records the dragged things, or copies of them, and their places.

@@ -2,6 +2,7 @@
 // PanelContext::drop and the placement of an inserted file at the mouse position.
 #include "drop.hpp"
 
+#include "collide_drag.hpp"
 #include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
@@ -281,7 +282,16 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     const auto hits = query::raycast_all(scene(), ray.origin, ray.direction);
     const scene::Bounds all = scene::world_bounds(scene());
     const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
-    const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
+    glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
+    if (hits.empty() || glm::dot(hits[0].normal, up_) > 0.5) { // else it hangs there
+        const scene::Bounds box = scene::world_bounds(imported.scene);
+        std::vector<InstanceId> ids;
+        imported.scene.instances.each([&](InstanceId id, const scene::Instance&) { ids.push_back(id); });
+        if (!box.empty())
+            at += room_for(
+                *this, imported.scene, ids,
+                glm::translate(glm::dmat4(1), at - box.center() + 0.5 * std::abs(glm::dot(box.size(), up_)) * up_));
+    }
     const auto made =
         session_->insert(imported, request.path.string(),
                          document::Session::Stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal});

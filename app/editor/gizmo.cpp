@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gizmo.hpp"
 
+#include "collide_drag.hpp"
 #include "panel_context.hpp"
 #include "query/navigation.hpp"
 #include "scene/projection.hpp"
@@ -133,7 +134,10 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
     if (ImGuizmo::IsUsing() && !drag.active && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 3)) {
         begin_drag(e, drag, io.KeyShift); // a click is not a drag
         drag.path.begin(drag.pivot, e.up(), mouse_of(e), true);
-        if (e.view.gizmo == GizmoMode::move) begin_snapping(e, drag, drag.pivot, mouse_of(e).ray);
+        if (e.view.gizmo == GizmoMode::move) {
+            begin_snapping(e, drag, drag.pivot, mouse_of(e).ray);
+            begin_colliding(e, drag);
+        }
     }
     if (drag.active && (moved || io.KeyAlt)) {
         // The handles' change since the start, about the pivot.
@@ -143,9 +147,14 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
             const glm::dvec3 free =
                 drag.path.update(io.KeyAlt, mouse_of(e), along, io.KeyCtrl ? double(e.view.snap_move) : 0);
             glm::dvec3 by = free;
+            bool straight = io.KeyAlt; // along one handle
             for (int i = 0; i < 3; ++i) // a handle of two axes does not snap
-                if (const glm::dvec3 axis(drag.frame[i]); std::abs(glm::dot(along, axis)) > 0.999 * glm::length(along))
+                if (const glm::dvec3 axis(drag.frame[i]);
+                    std::abs(glm::dot(along, axis)) > 0.999 * glm::length(along)) {
                     by = snapped(e, drag, free, mouse_of(e).ray, axis);
+                    straight = true;
+                }
+            by = collided(drag, by, straight, false);
             ask_drag(e, drag, glm::translate(glm::dmat4(1), by), "Move");
         } else {
             ask_drag(e, drag, there * glm::dmat4(drag.current) * glm::inverse(drag.frame) * glm::inverse(there),
@@ -157,6 +166,7 @@ GizmoState draw_gizmo(PanelContext& e, ImVec2 corner, ImVec2 size) {
         e.end_gesture();
     }
     draw_snapping(e, drag);
+    draw_colliding(e, drag);
     state.wants_mouse = ImGuizmo::IsUsing() || (ImGuizmo::IsOver() && !state.knob);
     return state;
 }

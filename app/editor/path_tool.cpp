@@ -31,21 +31,16 @@ std::optional<glm::dvec3> surface_at(const PanelContext& e, ImVec2 screen) {
 void draw_path(PanelContext& e, const std::vector<glm::dvec3>& points, std::size_t clicked) {
     const float scale = ImGui::GetStyle().FontScaleMain;
     const Viewport& v = e.viewport;
-    const auto on_screen = [&](const glm::dvec3& world) -> std::optional<ImVec2> {
-        const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
-        if (!(p.z > 0)) return std::nullopt;
-        return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
-    };
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect(v.corner, {v.corner.x + v.size.x, v.corner.y + v.size.y}, true);
     const ImU32 ground = ImGui::GetColorU32(colors::over_picture), line = ImGui::GetColorU32(colors::accent);
     std::vector<ImVec2> shown;
     for (const glm::dvec3& p : scene::path_through(points, e.panel_state->arrange.array.smooth))
-        if (const auto at = on_screen(p)) shown.push_back(*at);
+        if (const auto at = v.on_screen(e, p)) shown.push_back(*at);
     draw->AddPolyline(shown.data(), int(shown.size()), ground, 4 * scale);
     draw->AddPolyline(shown.data(), int(shown.size()), line, 2 * scale);
     for (std::size_t i = 0; i <= clicked && i < points.size(); ++i)
-        if (const auto at = on_screen(points[i])) {
+        if (const auto at = v.on_screen(e, points[i])) {
             draw->AddCircleFilled(*at, 5 * scale, ground);
             draw->AddCircleFilled(*at, 4 * scale, line);
         }

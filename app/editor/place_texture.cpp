@@ -58,13 +58,6 @@ std::optional<glm::dmat2> from_texture(const Plane& plane, const scene::TextureM
     return plane.from_uv * glm::inverse(map.linear);
 }
 
-std::optional<ImVec2> on_screen(const PanelContext& e, const glm::dvec3& world) {
-    const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
-    if (!(p.z > 0)) return std::nullopt;
-    const Viewport& v = e.viewport;
-    return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
-}
-
 query::ViewRay ray_at(const PanelContext& e, ImVec2 screen) {
     return query::view_ray(e.camera(), e.viewport.film_point(screen), e.film_aspect());
 }
@@ -85,7 +78,7 @@ std::optional<Frame> frame_of(const PanelContext& e, const Plane& plane, const g
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec2 p = to_plane * (signs[i] * (0.5 * repeats));
         radius = std::max(radius, glm::length(p));
-        const auto at = on_screen(e, plane.at(p));
+        const auto at = e.viewport.on_screen(e, plane.at(p));
         if (!at) return std::nullopt;
         frame.corners[i] = *at;
     }
@@ -94,11 +87,11 @@ std::optional<Frame> frame_of(const PanelContext& e, const Plane& plane, const g
     constexpr int pieces = 64;
     for (int i = 0; i <= pieces; ++i) {
         const double a = glm::two_pi<double>() * i / pieces, c = std::cos(a), s = std::sin(a);
-        const auto at = on_screen(e, plane.at({c * along.x - s * along.y, s * along.x + c * along.y}));
+        const auto at = e.viewport.on_screen(e, plane.at({c * along.x - s * along.y, s * along.x + c * along.y}));
         if (!at) return std::nullopt;
         frame.ring.push_back(*at);
     }
-    const auto middle = on_screen(e, plane.middle);
+    const auto middle = e.viewport.on_screen(e, plane.middle);
     if (!middle) return std::nullopt;
     frame.middle = *middle;
     frame.knob = frame.ring[0];

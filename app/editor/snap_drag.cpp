@@ -3,7 +3,6 @@
 
 #include "drag.hpp"
 #include "panel_context.hpp"
-#include "query/navigation.hpp"
 #include "theme.hpp"
 #include "viewport.hpp"
 #include "widgets.hpp"
@@ -11,7 +10,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <string>
-#include <unordered_set>
 #include <utility>
 
 namespace restage::editor {
@@ -40,14 +38,8 @@ std::string text_of(const query::SnapHint& hint, float grid) {
 void begin_snapping(DocumentContext& e, Drag& drag, const glm::dvec3& grabbed, const query::ViewRay& mouse) {
     drag.snapping.reset();
     if (!e.preferences.snap_to.any() || drag.start.empty()) return;
-    std::vector<std::pair<InstanceId, glm::dmat4>> thing; // a copy is not in the scene yet
-    std::unordered_set<InstanceId> skip;
-    for (std::size_t i = 0; i < drag.start.size(); ++i) {
-        thing.emplace_back(drag.originals[i], drag.start[i].second);
-        skip.insert(drag.start[i].first);
-    }
     drag.snapping = std::make_shared<Snapping>(
-        Snapping{query::Snapping(e.scene(), thing, std::move(skip), grabbed, mouse, e.up()), {}});
+        Snapping{query::Snapping(e.scene(), drag.thing(), drag.dragged(), grabbed, mouse, e.up()), {}});
 }
 
 glm::dvec3 snapped(PanelContext& e, Drag& drag, const glm::dvec3& by, const query::ViewRay& mouse,
@@ -71,11 +63,6 @@ void draw_snapping(PanelContext& e, const Drag& drag) {
     if (!drag.active || !drag.snapping || drag.snapping->hints.empty()) return;
     const float scale = ImGui::GetStyle().FontScaleMain;
     const Viewport& v = e.viewport;
-    const auto on_screen = [&](const glm::dvec3& world) -> std::optional<ImVec2> {
-        const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
-        if (!(p.z > 0)) return std::nullopt;
-        return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
-    };
     const double reach = e.selection.bounds(e.scene()).radius();
     const int up = std::abs(e.up().x) > 0.5 ? 0 : std::abs(e.up().y) > 0.5 ? 1 : 2;
     glm::dvec3 across[2] = {glm::dvec3(0), glm::dvec3(0)};
@@ -84,7 +71,7 @@ void draw_snapping(PanelContext& e, const Drag& drag) {
     draw->PushClipRect(v.corner, {v.corner.x + v.size.x, v.corner.y + v.size.y}, true);
     const ImU32 ground = ImGui::GetColorU32(colors::over_picture), line = ImGui::GetColorU32(colors::hover);
     const auto segment = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        const auto a = on_screen(from), b = on_screen(to);
+        const auto a = v.on_screen(e, from), b = v.on_screen(e, to);
         if (!a || !b) return;
         draw->AddLine(*a, *b, ground, 4 * scale);
         draw->AddLine(*a, *b, line, 2 * scale);
@@ -97,18 +84,13 @@ void draw_snapping(PanelContext& e, const Drag& drag) {
             for (const glm::dvec3& axis : across)
                 segment(hint.at - axis * (0.4 * reach), hint.at + axis * (0.4 * reach));
         }
-        const auto at = on_screen(hint.at);
+        const auto at = v.on_screen(e, hint.at);
         if (!at) continue;
         draw->AddCircleFilled(*at, 6 * scale, ground);
         draw->AddCircleFilled(*at, 4 * scale, line);
         if (hint.kind == Kind::vertex) draw->AddCircle(*at, 10 * scale, line, 0, 2 * scale);
         const std::string text = text_of(hint, e.view.snap_move);
-        const ImVec2 extent = ImGui::CalcTextSize(text.c_str()), lower(at->x - extent.x / 2, at->y + below);
-        draw->AddRectFilled({lower.x - 5 * scale, lower.y - 2 * scale},
-                            {lower.x + extent.x + 5 * scale, lower.y + extent.y + 2 * scale}, ground, 3 * scale);
-        draw->AddText(lower, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-        e.mark("snap." + text, lower, {lower.x + extent.x, lower.y + extent.y});
-        below += extent.y + 6 * scale;
+        below += picture_label(e, {at->x, at->y + below}, text, "snap." + text);
     }
     draw->PopClipRect();
 }

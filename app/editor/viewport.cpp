@@ -95,6 +95,12 @@ glm::dvec2 Viewport::film_point(ImVec2 screen) const {
     return {(screen.x - corner.x) / size.x, (screen.y - corner.y) / size.y};
 }
 
+std::optional<ImVec2> Viewport::on_screen(const SelectContext& e, const glm::dvec3& world) const {
+    const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
+    if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
+    return ImVec2(corner.x + float(p.x) * size.x, corner.y + float(p.y) * size.y);
+}
+
 InstanceId Viewport::instance_at(const PanelContext& e, ImVec2 screen) const {
     const glm::dvec2 p = film_point(screen);
     if (!drawn_ || p.x < 0 || p.y < 0 || p.x >= 1 || p.y >= 1) return {};

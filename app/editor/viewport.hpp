@@ -30,11 +30,14 @@ class Viewport {
     // The picture's rectangle on screen, of the last frame.
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
+    bool collide = false; // moved things do not enter others: collide_drag.hpp
     Measurement measurement;
     RenderRegion region;
     TexturePlacing placing;
     // A screen point in picture coordinates: (0,0) top left, (1,1) bottom right.
     glm::dvec2 film_point(ImVec2 screen) const;
+    // Where it is seen: on screen, beside the picture, too; nullopt behind the camera.
+    std::optional<ImVec2> on_screen(const SelectContext& editor, const glm::dvec3& world) const;
     // The object visible there in the shown picture; none outside.
     InstanceId instance_at(const PanelContext& editor, ImVec2 screen) const;
     std::uint64_t shown_request() const { return drawn_ ? drawn_->request : 0; } // of LiveView::show
@@ -103,6 +106,10 @@ class Viewport {
     ImVec2 last_click_{-1, -1};
     std::size_t behind_ = 0; // number of clicks on the same point
 };
+
+// Draws a line of text on a ground over the picture, centred below that place, with that mark. Returns the height to
+// the next one.
+float picture_label(PanelContext& editor, ImVec2 place, const std::string& text, const std::string& mark);
 
 // The text in the picture's corner. `compiling`: a material whose code is not ready; "" = none.
 std::string picture_note(const view::Frame& shown, const std::string& compiling, bool beside_camera);

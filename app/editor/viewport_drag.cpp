@@ -2,6 +2,7 @@
 // Dragging the selection directly, or by the knob between its handles: it slides horizontally, and stays under the
 // mouse. This also works if handles point at the viewer and are too short to drag. Also things that follow the mouse:
 // sticking the selection to the surface under it, and the values of the pixel there.
+#include "collide_drag.hpp"
 #include "document/session.hpp"
 #include "panel_context.hpp"
 #include "pick_tool.hpp"
@@ -43,6 +44,7 @@ void Viewport::start_sliding(PanelContext& e, ImVec2 screen) {
     const glm::dvec3 at = hits.empty() ? gizmo_drag.pivot : hits[0].position;
     slide_.path.begin(at, e.up(), mouse, false);
     begin_snapping(e, slide_, at, mouse.ray);
+    begin_colliding(e, slide_);
 }
 
 void Viewport::slide(PanelContext& e) {
@@ -55,9 +57,11 @@ void Viewport::slide(PanelContext& e) {
     const DragPath::Mouse mouse = mouse_at(e, *this, io.MousePos);
     const glm::dvec3 free =
         slide_.path.update(io.KeyAlt, mouse, std::nullopt, io.KeyCtrl ? double(e.view.snap_move) : 0);
-    const glm::dvec3 by = snapped(e, slide_, free, mouse.ray, std::nullopt);
+    const glm::dvec3 wanted = snapped(e, slide_, free, mouse.ray, std::nullopt);
+    const glm::dvec3 by = collided(slide_, wanted, io.KeyAlt, wanted != free);
     ask_drag(e, slide_, glm::translate(glm::dmat4(1), by), "Move");
     draw_snapping(e, slide_);
+    draw_colliding(e, slide_);
 }
 
 bool Viewport::dragging() const {

@@ -20,12 +20,6 @@ constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t rim_points = 48;
 
 // A point's position on the screen; none behind the camera.
-std::optional<ImVec2> on_screen(const PanelContext& e, const Viewport& v, const glm::dvec3& world) {
-    const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
-    if (!(p.z > 0) || std::abs(p.x) > 1e4 || std::abs(p.y) > 1e4) return std::nullopt;
-    return ImVec2(v.corner.x + float(p.x) * v.size.x, v.corner.y + float(p.y) * v.size.y);
-}
-
 struct Cone {
     glm::dvec3 tip, x, y, z; // its axis is z
     double length = 1;
@@ -57,7 +51,7 @@ scene::Id<scene::Light> Viewport::light_at(const PanelContext& e, ImVec2 screen)
     const float r = 9 * ImGui::GetStyle().FontScaleMain;
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
         if (!scene::light_row(light.kind).placed) return;
-        if (const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
+        if (const auto c = on_screen(e, glm::dvec3(light.light_to_world[3]));
             c && std::hypot(c->x - screen.x, c->y - screen.y) < r)
             found = id;
     });
@@ -70,7 +64,7 @@ void Viewport::draw_lights(PanelContext& e) {
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
         if (!scene::light_row(light.kind).placed) return;
-        const auto c = on_screen(e, *this, glm::dvec3(light.light_to_world[3]));
+        const auto c = on_screen(e, glm::dvec3(light.light_to_world[3]));
         if (!c) return;
         const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::selected
                                                : light.hidden            ? colors::lamp_off
@@ -94,7 +88,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     const Cone cone = cone_of(e, light);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const auto line = [&](const glm::dvec3& a, const glm::dvec3& b, ImU32 color) {
-        const auto from = on_screen(e, *this, a), to = on_screen(e, *this, b);
+        const auto from = on_screen(e, a), to = on_screen(e, b);
         if (from && to) draw->AddLine(*from, *to, color, 1.5f);
     };
     const auto radius = [&](double angle) { return cone.length * std::tan(glm::radians(std::min(angle, 80.0))); };
@@ -113,8 +107,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     // Its handle, at the rightmost point of the rim in the picture: dragging it outwards widens the cone.
     std::optional<ImVec2> handle;
     for (std::size_t i = 0; i < rim_points; ++i)
-        if (const auto at =
-                on_screen(e, *this, cone.rim(radius(double(light.cone_angle)), 2 * pi * double(i) / rim_points));
+        if (const auto at = on_screen(e, cone.rim(radius(double(light.cone_angle)), 2 * pi * double(i) / rim_points));
             at && (!handle || at->x > handle->x) && at->x < corner.x + size.x - 8 && at->y > corner.y &&
             at->y < corner.y + size.y)
             handle = at;

@@ -2,7 +2,6 @@
 // The measure tool in the picture.
 #include "panel_context.hpp"
 #include "query/measure.hpp"
-#include "query/navigation.hpp"
 #include "theme.hpp"
 #include "viewport.hpp"
 
@@ -28,11 +27,6 @@ bool Viewport::run_measuring(PanelContext& e, bool over) {
             m.points.push_back(at->position);
         }
     }
-    const auto on_screen = [&](const glm::dvec3& world) -> std::optional<ImVec2> {
-        const glm::dvec3 p = query::project(e.camera(), world, e.film_aspect());
-        if (!(p.z > 0)) return std::nullopt;
-        return ImVec2(corner.x + float(p.x) * size.x, corner.y + float(p.y) * size.y);
-    };
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     const ImU32 line = ImGui::GetColorU32(colors::accent), ground = ImGui::GetColorU32(colors::over_picture);
@@ -47,7 +41,7 @@ bool Viewport::run_measuring(PanelContext& e, bool over) {
         e.mark(mark, lower, {lower.x + extent.x, lower.y + extent.y});
     };
     if (ends.size() == 2) {
-        const auto a = on_screen(ends[0]), b = on_screen(ends[1]);
+        const auto a = on_screen(e, ends[0]), b = on_screen(e, ends[1]);
         const glm::dvec3 by = ends[1] - ends[0];
         if (a && b) {
             draw->AddLine(*a, *b, ground, 4 * scale);
@@ -57,9 +51,9 @@ bool Viewport::run_measuring(PanelContext& e, bool over) {
         }
     }
     for (const glm::dvec3& point : m.points)
-        if (const auto p = on_screen(point)) draw->AddCircleFilled(*p, 4 * scale, line);
+        if (const auto p = on_screen(e, point)) draw->AddCircleFilled(*p, 4 * scale, line);
     if (at)
-        if (const auto p = on_screen(at->position)) {
+        if (const auto p = on_screen(e, at->position)) {
             draw->AddCircle(*p, (at->vertex ? 7 : 4) * scale, line, 0, 2 * scale);
             if (at->vertex) draw->AddCircleFilled(*p, 2 * scale, line);
         }

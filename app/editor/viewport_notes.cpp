@@ -70,6 +70,7 @@ void Viewport::draw_toolbar(PanelContext& e) {
     draw_steps(e);
     next(ImGui::CalcTextSize("Snap").x + 2 * ImGui::GetStyle().FramePadding.x, true);
     snap_button(e);
+    button("view.collide", "Collide", true);
     const std::string missing = e.live().denoiser_missing();
     ImGui::BeginDisabled(!missing.empty());
     button("view.denoise", "Denoise");
@@ -206,6 +207,18 @@ void Viewport::draw_darkness(PanelContext& e) {
     tip("Soft grey light from all directions; in a closed room also a lamp at the camera");
     e.mark("viewport.studio");
     ImGui::EndChild();
+}
+
+float picture_label(PanelContext& e, ImVec2 place, const std::string& text, const std::string& mark) {
+    const float scale = ImGui::GetStyle().FontScaleMain;
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str()), lower(place.x - extent.x / 2, place.y);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled({lower.x - 5 * scale, lower.y - 2 * scale},
+                        {lower.x + extent.x + 5 * scale, lower.y + extent.y + 2 * scale},
+                        ImGui::GetColorU32(colors::over_picture), 3 * scale);
+    draw->AddText(lower, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    e.mark(mark, lower, {lower.x + extent.x, lower.y + extent.y});
+    return extent.y + 6 * scale;
 }
 
 void Viewport::draw_hint(PanelContext& e) {

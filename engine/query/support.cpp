@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/support.hpp"
 
+#include "query/collision.hpp"
 #include "scene/bounds.hpp"
 #include "scene/quadric_hit.hpp"
 
@@ -108,15 +109,14 @@ bool overlap(const Bounds& a, const Bounds& b) { // of footprints
            b.lower.y <= a.upper.y;
 }
 
-} // namespace
-
-std::optional<double> fall_distance(const scene::Scene& s, std::span<const InstanceId> ids, const glm::dvec3& up) {
+// Infinite if nothing is below. By a raster, about which quadrics are exact, though triangles only approximate them.
+double raster_fall(const scene::Scene& s, std::span<const InstanceId> ids, const std::unordered_set<InstanceId>& skip,
+                   const glm::dvec3& up) {
     const Frame frame(up);
-    const std::unordered_set<InstanceId> body(ids.begin(), ids.end());
     Bounds all;
     for (const InstanceId id : ids)
         if (const scene::Instance* instance = s.instances.find(id)) all.add(bounds_of(s, frame, *instance));
-    if (all.empty()) return std::nullopt;
+    if (all.empty()) return infinity;
 
     // Its underside and top, cell by cell.
     const Raster raster{glm::dvec2(all.lower), glm::dvec2(all.upper)};
@@ -136,7 +136,7 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
 
     double least = infinity;
     s.instances.each([&](InstanceId id, const scene::Instance& instance) {
-        if (instance.hidden || body.contains(id)) return;
+        if (instance.hidden || skip.contains(id)) return;
         const Bounds box = bounds_of(s, frame, instance);
         if (!overlap(box, all) || box.lower.z > all.upper.z) return;
         if (all.lower.z - box.upper.z > least) return; // something nearer was found
@@ -145,6 +145,31 @@ std::optional<double> fall_distance(const scene::Scene& s, std::span<const Insta
             if (under[i] < infinity && z <= reach[i]) least = std::min(least, under[i] - z);
         });
     });
+    return least;
+}
+
+bool is_quadric(const scene::Scene& s, const scene::Instance& instance) {
+    const scene::Mesh* mesh = s.meshes.find(instance.mesh);
+    return mesh && scene::quadric_of(*mesh);
+}
+
+} // namespace
+
+std::optional<double> fall_distance(const scene::Scene& s, std::span<const InstanceId> ids, const glm::dvec3& up) {
+    std::unordered_set<InstanceId> round(ids.begin(), ids.end()), flat = round; // what each method leaves out
+    const bool round_body = std::ranges::any_of(ids, [&](InstanceId id) {
+        const scene::Instance* instance = s.instances.find(id);
+        return instance && is_quadric(s, *instance);
+    });
+    bool any_round = round_body;
+    s.instances.each([&](InstanceId id, const scene::Instance& instance) {
+        const bool quadric = round_body || is_quadric(s, instance);
+        (quadric ? round : flat).insert(id);
+        any_round |= quadric;
+    });
+    double least = infinity;
+    if (!round_body) least = Collision(s, Collision::thing_of(s, ids), round, up).fall().value_or(infinity);
+    if (any_round) least = std::min(least, raster_fall(s, ids, flat, up));
     return std::isfinite(least) ? std::optional(least) : std::nullopt;
 }
 

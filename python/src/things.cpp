@@ -3,6 +3,7 @@
 #include "workspace.hpp"
 
 #include "document/projected.hpp"
+#include "query/collision.hpp"
 #include "query/support.hpp"
 #include "scene/arrange.hpp"
 #include "scene/box_projection.hpp"
@@ -104,11 +105,22 @@ void bind_verbs(nb::class_<C>& c) {
             "Size of the bounds along the world's axes [scene units].")
         .def(
             "move",
-            [](const C& self, const Three& by) {
-                self.in->edit(
-                    move_instances(self.in->scene(), objects_of(self), glm::translate(glm::dmat4(1), vec(by))));
+            [](const C& self, const Three& by, bool collide) {
+                const Objects ids = objects_of(self);
+                glm::dvec3 way = vec(by);
+                if (collide) {
+                    const Scene& scene = self.in->scene();
+                    query::Collision thing(scene, query::Collision::thing_of(scene, ids), {ids.begin(), ids.end()},
+                                           self.in->up());
+                    thing.slide(way);
+                    way = thing.at();
+                }
+                self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), way)));
             },
-            "by"_a, "Moves by this vector, world space [scene units].")
+            "by"_a, "collide"_a = false,
+            "Moves by this vector, world space [scene units]. collide=True: only until it touches another visible "
+            "object, "
+            "and on along that; contact before the move does not hold it.")
         .def(
             "move_to",
             [](const C& self, const Three& place) {

@@ -74,6 +74,9 @@ def test_dropping_stands_things_on_the_floor(demo):
     vase.move((0, 0, 0.2))
     assert vase.drop() == pytest.approx(0.2, abs=2e-3)
     assert vase.bounds[0, 2] == pytest.approx(z, abs=2e-3)
+    vase.move((0, 0, 0.5))
+    vase.move((0, 0, -2), collide=True)
+    assert vase.bounds[0, 2] == pytest.approx(z, abs=2e-3), "it stopped on what it stands on"
     vase.move((100, 0, 0))
     assert vase.drop() is None, "nothing is below"
 

@@ -447,6 +447,21 @@ def snapping(s):
 
 
 @state
+def colliding(s):
+    s.stop()
+    s.start(DEMO)
+    s.select("Chair frame")
+    s.editor.click("view.collide")
+    start = s.editor.point("gizmo.center")
+    s.editor.move("gizmo.center")
+    s.desk.xdotool("mousedown", 1)
+    for i in range(1, 9):
+        s.desk.xdotool("mousemove", start[0] - 20 * i, start[1] - 8 * i)
+        time.sleep(0.1)
+    time.sleep(0.5)
+
+
+@state
 def history(s):
     s.start(DEMO)
     s.tab("History")
