@@ -56,7 +56,8 @@ void Notices::draw(float right, float bottom) {
         for (auto line = lines_.rbegin(); line != lines_.rend() && fresh.size() < 4; ++line)
             if (now() - line->time < lifetime(line->level)) fresh.push_back(*line);
     }
-    const float scale = ImGui::GetStyle().FontScaleMain, width = 360 * scale, pad = 8 * scale;
+    const float scale = ImGui::GetStyle().FontScaleMain, pad = 8 * scale,
+                width = std::clamp(right - ImGui::GetWindowPos().x - 4 * pad, 1.f, 360 * scale);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     for (const LogLine& line : fresh) {
         const ImVec2 size = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, width);

@@ -193,7 +193,9 @@ void revert(Editor& e) {
     e.show_modal("Revert", [path, reopen, steps = e.session().history().position(), &editor = e](PanelContext&) {
         dialog_width(400);
         ImGui::TextWrapped("Discard all changes since %s was saved?", path.filename().string().c_str());
-        empty_note(fmt::format("{} steps of the history are lost; this cannot be undone.", steps).c_str());
+        empty_note((steps == 1 ? "One step of the history is lost; this cannot be undone."
+                               : fmt::format("{} steps of the history are lost; this cannot be undone.", steps))
+                       .c_str());
         ImGui::Spacing();
         bool stay = true;
         if (ImGui::Button("Revert")) {

@@ -117,7 +117,8 @@ void draw_scene_picture(PanelUi& e, const fs::path& file, float side, const std:
             corner(at.x + (side - size.x) / 2, at.y + (side - size.y) / 2);
         draw->AddImage(picture.texture->ref(), corner, {corner.x + size.x, corner.y + size.y});
     } else {
-        draw->AddRectFilled(at, {at.x + side, at.y + side}, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
+        draw->AddRectFilled(at, {at.x + side, at.y + side}, ImGui::GetColorU32(ImGuiCol_FrameBg),
+                            4 * ImGui::GetStyle().FontScaleMain);
         const float icon = side * 0.4f;
         draw_icon(draw, Icon::camera, {at.x + (side - icon) / 2, at.y + (side - icon) / 2}, icon,
                   ImGui::GetColorU32(colors::dim));

@@ -104,7 +104,7 @@ void snap_button(PanelUi& e) {
     tip("What dragged things snap to");
     e.mark("toolbar.snap");
     if (!ImGui::BeginPopup("snap")) return;
-    ImGui::TextColored(colors::dim, "Dragged things snap to. Ctrl suspends it");
+    ImGui::TextColored(colors::dim, "What dragged things snap to; Ctrl: to nothing");
     const auto row = [&](const char* label, const char* tooltip, bool& value, const char* mark) {
         ImGui::Checkbox(label, &value);
         tip(tooltip);

@@ -261,7 +261,7 @@ void Viewport::pick(PanelContext& e, bool over, const GizmoState& gizmo) {
                                                : Selection::Mode::replace;
     if (boxing_) {
         ImDrawList* draw = ImGui::GetWindowDrawList();
-        draw->AddRectFilled(press_, io.MousePos, ImGui::GetColorU32({0.96f, 0.62f, 0.22f, 0.12f}));
+        draw->AddRectFilled(press_, io.MousePos, faded(colors::selected, 0.12f));
         draw->AddRect(press_, io.MousePos, ImGui::GetColorU32(colors::selected));
         ImGui::SetTooltip(io.MousePos.x >= press_.x
                               ? "Objects entirely inside the box (to the left: all it touches)"

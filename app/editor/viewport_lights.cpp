@@ -60,7 +60,7 @@ scene::Id<scene::Light> Viewport::light_at(const PanelContext& e, ImVec2 screen)
 
 void Viewport::draw_lights(PanelContext& e) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
-    const float r = 6 * ImGui::GetStyle().FontScaleMain;
+    const float scale = ImGui::GetStyle().FontScaleMain, r = 6 * scale;
     draw->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     e.scene().lights.each([&](scene::Id<scene::Light> id, const scene::Light& light) {
         if (!scene::light_row(light.kind).placed) return;
@@ -69,11 +69,11 @@ void Viewport::draw_lights(PanelContext& e) {
         const ImU32 color = ImGui::GetColorU32(id == e.selection.light() ? colors::selected
                                                : light.hidden            ? colors::lamp_off
                                                                          : colors::lamp);
-        draw->AddCircle(*c, r, color, 0, 2);
+        draw->AddCircle(*c, r, color, 0, 2 * scale);
         for (int i = 0; i < 8; ++i) {
             const float a = float(i) * 0.785398f;
             draw->AddLine({c->x + std::cos(a) * r * 1.3f, c->y + std::sin(a) * r * 1.3f},
-                          {c->x + std::cos(a) * r * 1.8f, c->y + std::sin(a) * r * 1.8f}, color, 1.5f);
+                          {c->x + std::cos(a) * r * 1.8f, c->y + std::sin(a) * r * 1.8f}, color, 1.5f * scale);
         }
     });
     const scene::Light* chosen = e.scene().lights.find(e.selection.light());
@@ -89,7 +89,7 @@ void Viewport::draw_cone(PanelContext& e, scene::Id<scene::Light> id) {
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const auto line = [&](const glm::dvec3& a, const glm::dvec3& b, ImU32 color) {
         const auto from = on_screen(e, a), to = on_screen(e, b);
-        if (from && to) draw->AddLine(*from, *to, color, 1.5f);
+        if (from && to) draw->AddLine(*from, *to, color, 1.5f * ImGui::GetStyle().FontScaleMain);
     };
     const auto radius = [&](double angle) { return cone.length * std::tan(glm::radians(std::min(angle, 80.0))); };
     const auto rim = [&](double angle, ImU32 color) {

@@ -35,7 +35,8 @@ void form_row(const char* label, const char* tooltip, float right) {
     else
         tip(cut ? label : tooltip);
     if (!above) ImGui::SameLine(left + column);
-    ImGui::SetNextItemWidth(std::max(40.f, all - column - (right > 0 ? right + gap : 0)));
+    ImGui::SetNextItemWidth(
+        std::max(40 * ImGui::GetStyle().FontScaleMain, all - column - (right > 0 ? right + gap : 0)));
 }
 
 void dialog_width(float width) {

@@ -124,7 +124,7 @@ void cell(SelectContext& e, const Asset& asset, float side) {
     tip(fmt::format("{}\n{}", asset.path, uses[int(asset.kind)]).c_str());
     ImDrawList* draw = ImGui::GetWindowDrawList();
     draw->AddRectFilled(at, {at.x + side, at.y + side},
-                        ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), 4);
+                        ImGui::GetColorU32(hovered ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), side * 0.05f);
     const bool image = asset.kind == AssetKind::sky || asset.kind == AssetKind::texture;
     static const AssetsState::Thumbnail none;
     const AssetsState::Thumbnail& thumbnail = image && visible ? thumbnail_of(e, asset.path) : none;

@@ -39,6 +39,7 @@ void draw_history(EditContext& e) {
     };
     // Its size and limit.
     constexpr double mib = 1 << 20;
+    ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s",
                         fmt::format("{} steps, {:.3g} of", history.size(), double(history.bytes()) / mib).c_str());
     e.mark("history.bytes");

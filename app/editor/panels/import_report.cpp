@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <misc/cpp/imgui_stdlib.h>
 #include <algorithm>
 #include <filesystem>
@@ -324,10 +325,14 @@ void draw_import_report(SelectContext& e) {
                     .c_str());
             e.mark(fmt::format("report.{}", i));
             ImGui::TableNextColumn();
-            ImGui::Text("%s%s%s", io::to_string(entry.fate), entry.note.empty() ? "" : ": ", entry.note.c_str());
+            ImGui::TextAligned(0, -FLT_MIN, "%s%s%s", io::to_string(entry.fate), entry.note.empty() ? "" : ": ",
+                               entry.note.c_str());
             ImGui::TableNextColumn();
+            ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
             if (!entry.file.empty())
-                ImGui::TextDisabled("%s:%u", std::filesystem::path(entry.file).filename().string().c_str(), entry.line);
+                ImGui::TextAligned(0, -FLT_MIN, "%s:%u", std::filesystem::path(entry.file).filename().string().c_str(),
+                                   entry.line);
+            ImGui::PopStyleColor();
             ImGui::PopID();
         }
     ImGui::EndTable();

@@ -95,7 +95,7 @@ void draw_inspector(SelectContext& e) {
     tip("The object's name");
     e.mark("inspector.name");
     const std::size_t count = e.selection.instances().size();
-    if (count > 1) ImGui::TextDisabled("and %zu more: place, hidden and locked apply to all.", count - 1);
+    if (count > 1) empty_note(fmt::format("and {} more: place, hidden and locked apply to all.", count - 1).c_str());
     place_section(e);
     material_section(e, instance->material);
     emission_section(e, id);

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 namespace restage::editor {
 
@@ -112,11 +113,14 @@ void draw_plugins(DocumentContext& e) {
             if (show_wrong)
                 ImGui::TextColored(colors::error, "%s", entry->name().c_str());
             else
-                ImGui::TextUnformatted(entry->name().c_str());
+                ImGui::TextAligned(0, -FLT_MIN, "%s", entry->name().c_str());
+            ImGui::PushStyleColor(ImGuiCol_Text, colors::dim);
             ImGui::TableNextColumn();
-            if (!entry->manifest.id.empty()) ImGui::TextDisabled("%s", choice_label(entry->manifest.kind()).c_str());
+            if (!entry->manifest.id.empty())
+                ImGui::TextAligned(0, -FLT_MIN, "%s", choice_label(entry->manifest.kind()).c_str());
             ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", entry->manifest.version.c_str());
+            ImGui::TextAligned(0, -FLT_MIN, "%s", entry->manifest.version.c_str());
+            ImGui::PopStyleColor();
             ImGui::TableNextColumn();
             buttons(e, *entry);
             ImGui::TableNextColumn();
@@ -125,7 +129,7 @@ void draw_plugins(DocumentContext& e) {
             else if (show_wrong)
                 warning_note(entry->reason.c_str());
             else
-                ImGui::TextDisabled("%s", entry->folder.string().c_str());
+                ImGui::TextAligned(0, -FLT_MIN, "%s", entry->folder.string().c_str());
             tip(fmt::format("{}\nClick to copy the folder's path", entry->folder.string()).c_str());
             if (ImGui::IsItemClicked()) {
                 ImGui::SetClipboardText(entry->folder.string().c_str());

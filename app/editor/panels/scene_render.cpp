@@ -100,7 +100,7 @@ void scene_rows(EditContext& e) {
     e.mark("render.epsilon");
     form_row("Reference", "Turns off everything biased: caustics by photon maps, both limits, and the ray offset");
     ImGui::BeginDisabled(scene::for_reference(settings) == settings);
-    if (ImGui::Button("Turn off what is biased")) {
+    if (ImGui::Button("Unbiased")) {
         settings = scene::for_reference(std::move(settings));
         changed = true;
     }
