@@ -17,27 +17,28 @@ bool same_pixels(const PixelData& a, const PixelData& b) {
 
 struct Pair {
     const Scene &a, &b;
-    bool origins = false; // have to be equal, too
+    bool to_share = false; // origins have to be equal, too, and images need not be of one file
 
     bool images(Id<Image> x, Id<Image> y) const {
         const Image *i = a.images.find(x), *j = b.images.find(y);
         if (!i || !j) return !i && !j;
-        if (i->encoding != j->encoding || (i->encoding == Encoding::gamma && i->gamma != j->gamma)) return false;
-        if (i->data == j->data) return i->data || i->path == j->path;
-        return (!i->path.empty() && i->path == j->path) || (i->data && j->data && same_pixels(*i->data, *j->data));
+        const bool equal = to_share && i->data && j->data && same_pixels(*i->data, *j->data);
+        const bool same = equal || (i->data == j->data && (i->data || !to_share || i->path == j->path)) ||
+                          (!i->path.empty() && i->path == j->path);
+        return same && i->encoding == j->encoding && (i->encoding != Encoding::gamma || i->gamma == j->gamma);
     }
 
     bool textures(Id<Texture> x, Id<Texture> y, int depth) const {
         const Texture *s = a.textures.find(x), *t = b.textures.find(y);
         if (!s || !t) return !s && !t;
-        return depth < deepest && (!origins || s->origin == t->origin) && s->type == t->type &&
+        return depth < deepest && (!to_share || s->origin == t->origin) && s->type == t->type &&
                s->is_float == t->is_float && images(s->image, t->image) && params(s->params, t->params, depth + 1);
     }
 
     bool materials(Id<Material> x, Id<Material> y, int depth) const {
         const Material *m = a.materials.find(x), *n = b.materials.find(y);
         if (!m || !n) return !m && !n;
-        return depth < deepest && (!origins || m->origin == n->origin) && m->type == n->type &&
+        return depth < deepest && (!to_share || m->origin == n->origin) && m->type == n->type &&
                params(m->params, n->params, depth + 1);
     }
 
