@@ -110,7 +110,7 @@ TEST_CASE("a linked file that has changed is shown as it is now", "[links][proje
     Shop shop;
     shop.move(aside);
     const glm::dmat4 place = place_of(shop.scene(), shop.made.group);
-    const std::string text = shop.save();
+    shop.save();
     shop.write_pair("o left\nusemtl red\nf 1 2 4\no third\nusemtl blue\nf 1 2 3\no fourth\nf 2 3 4\n");
     SECTION("when the project is opened") {
         const document::Session again = shop.reopened();
