@@ -2,6 +2,7 @@
 // PanelContext::drop and the placement of an inserted file at the mouse position.
 #include "drop.hpp"
 
+#include "document/linking.hpp"
 #include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
@@ -216,6 +217,7 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     } else if (is_inserted(e, path)) {
         e.drop_target = on;
         text = on ? fmt::format("{}, to stand on {}", name, e.scene().instances[on].name) : name + ", into the scene";
+        text += ImGui::GetIO().KeyAlt ? ", linked" : " (with Alt: linked)";
     } else {
         text = name + " is opened";
     }
@@ -282,9 +284,9 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     const scene::Bounds all = scene::world_bounds(scene());
     const double away = all.empty() ? 1 : std::max(glm::length(all.center() - ray.origin), 1e-6);
     const glm::dvec3 at = hits.empty() ? ray.origin + glm::normalize(ray.direction) * away : hits[0].position;
-    const auto made =
-        session_->insert(imported, request.path.string(),
-                         document::Session::Stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal});
+    const document::Session::Stand stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal};
+    const auto made = request.link ? document::link(*session_, imported, request.path.string(), stand)
+                                   : session_->insert(imported, request.path.string(), stand);
     if (!made) {
         notices.add(LogLevel::error, made.error().message);
         return;
@@ -292,7 +294,8 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     selection.set(made->instances);
     const auto dropped = imported.report.count(io::Fate::dropped);
     notices.add(LogLevel::info,
-                fmt::format("{}: {} objects inserted{}", request.path.filename().string(), made->instances.size(),
+                fmt::format("{}: {} objects {}{}", request.path.filename().string(), made->instances.size(),
+                            request.link ? "linked" : "inserted",
                             dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));
 }
 
