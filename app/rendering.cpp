@@ -8,6 +8,7 @@
 #include "document/pack.hpp"
 #include "io/strict.hpp"
 #include "progress.hpp"
+#include "reading.hpp"
 #include "render/film_error.hpp"
 #include "render/tracers.hpp"
 #include "scene/development.hpp"
@@ -146,13 +147,8 @@ Result<std::shared_ptr<const document::IsolateOptions>> isolate_options(const Co
 Result<io::ImportedScene> open_scene(Context& context, const std::string& path, bool strict,
                                      const std::optional<scene::ParamSet>& import_options, document::Looks* looks) {
     if (path == "-") return fail("-: a scene on stdin is read by `restage render` only; name a file");
-    catch_interrupts();
     ProgressBar bar(context.quiet);
-    document::ReadOptions read{.progress = [&](float done, std::string_view what) {
-        bar.show(done, std::string(what));
-        return !interrupted();
-    }};
-    RESTAGE_TRY(read.isolate, isolate_options(context));
+    RESTAGE_TRY(document::ReadOptions read, reading_with(context, bar));
     read.import_options = import_options;
     io::ImportedScene imported;
     if (document::is_project(path) ||

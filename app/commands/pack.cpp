@@ -4,7 +4,7 @@
 #include "commands.hpp"
 #include "document/session.hpp"
 #include "progress.hpp"
-#include "rendering.hpp"
+#include "reading.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -18,13 +18,8 @@ struct Options {
 };
 
 Result<int> run(Context& context, const Options& o) {
-    catch_interrupts();
     ProgressBar bar(context.quiet);
-    document::ReadOptions read{.progress = [&](float done, std::string_view what) {
-        bar.show(done, std::string(what));
-        return !interrupted();
-    }};
-    RESTAGE_TRY(read.isolate, isolate_options(context));
+    RESTAGE_TRY(document::ReadOptions read, reading_with(context, bar));
     document::Session session(context.registry());
     RESTAGE_CHECK(session.open(o.input, read));
     RESTAGE_TRY(const document::Packed packed,

@@ -10,6 +10,7 @@
 #include "importing.hpp"
 #include "io/material_emission.hpp"
 #include "kept_pictures.hpp"
+#include "linking.hpp"
 #include "looks.hpp"
 #include "packing.hpp"
 #include "panels/light_buttons.hpp"
@@ -23,6 +24,7 @@
 #include "query/touching.hpp"
 #include "saving.hpp"
 #include "scene/edits.hpp"
+#include "scene/links.hpp"
 #include "shadow_floor.hpp"
 #include "view/live_view.hpp"
 #include "viewport.hpp"
@@ -231,6 +233,10 @@ constexpr auto actions = std::to_array<Action>({
     {"file.open", "Open...", ImGuiMod_Ctrl | ImGuiKey_O, 0, "A scene or a project", nullptr, open_dialog},
     {"file.insert", "Insert file...", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_I, 0,
      "Adds a file's contents as new objects", has_scene, insert_dialog},
+    {"file.link", "Link file...", 0, 0, "Shows a file's objects in place; they stay the file's, and follow it",
+     has_scene, link_dialog},
+    {"file.reload_links", "Reload links", 0, 0, "Reads all linked files again; a changed one is read by itself",
+     [](const PanelContext& e) { return !scene::all_links(e.scene()).empty(); }, reload_links},
     {"file.import_again", "Import again...", 0, 0, "Reads the scene's file again with other options",
      [](const PanelContext& e) { return why_not_import_again(e).empty(); }, import_again},
     {"file.read_again", "Read again", 0, 0, "Reads the scene's file again, with the options last chosen for its format",
@@ -274,6 +280,10 @@ constexpr auto actions = std::to_array<Action>({
      "A click then selects single objects of the group again",
      [](const PanelContext& e) { return bool(group_of_selection(e)); },
      [](Editor& e) { ungroup(e, group_of_selection(e)); }},
+    {"edit.make_editable", "Make editable", 0, 0, "The selected link becomes objects of this document",
+     [](const PanelContext& e) { return bool(selected_link(e)); }, make_link_editable},
+    {"edit.merge_materials", "Merge equal materials", 0, 0,
+     "One material instead of several that are equal and called the same but for a number", has_scene, merge_materials},
     {"edit.find", "Find anything...", ImGuiMod_Ctrl | ImGuiKey_P, 0,
      "Any action, panel, object, group, light, material or camera by a part of its name", nullptr,
      [](Editor& e) { e.panel_state->palette.asked = true; }},
@@ -358,6 +368,8 @@ constexpr auto actions = std::to_array<Action>({
     {"look.new", "New look", ImGuiMod_Ctrl | ImGuiMod_Shift | ImGuiKey_L, 0,
      "Records how things are now, to go back to: places, visibility, materials, lights, sky, exposure and camera",
      has_scene, run<new_look>},
+    {"look.variants", "Looks from variants", 0, 0, "A look for each material variant of the document's glTF file",
+     has<has_variants>, run<looks_from_variants>},
     {"look.next", "Next look", ImGuiKey_PageDown, 0, "Go to the next look", has<has_looks>,
      [](Editor& e) { step_look(e, 1); }},
     {"look.previous", "Previous look", ImGuiKey_PageUp, 0, "Go to the previous look", has<has_looks>,
@@ -405,8 +417,8 @@ constexpr auto actions = std::to_array<Action>({
      [](const PanelContext& e) { return e.view.local_axes; }},
     {"view.collide", "Collide", ImGuiMod_Ctrl | ImGuiKey_K, 0,
      "Moved things stop at others, slide along them and rest on them. Shift, during a drag, lets them through", nullptr,
-     [](Editor& e) { e.viewport.collide = !e.viewport.collide; },
-     [](const PanelContext& e) { return e.viewport.collide; }},
+     [](Editor& e) { e.preferences.collide = !e.preferences.collide; },
+     [](const PanelContext& e) { return e.preferences.collide; }},
     {"view.denoise", "Denoise", ImGuiKey_N, 0, "Show the denoised picture", nullptr,
      [](Editor& e) { e.view.denoise = !e.view.denoise; }, [](const PanelContext& e) { return e.view.denoise; }},
     {"view.exposure", "False-colour exposure", ImGuiMod_Shift | ImGuiKey_E, 0,

@@ -14,7 +14,7 @@ namespace restage::editor {
 
 void begin_colliding(PanelContext& e, Drag& drag) {
     drag.colliding.reset();
-    if (!e.viewport.collide || drag.start.empty()) return;
+    if (!e.preferences.collide || drag.start.empty()) return;
     drag.colliding = std::shared_ptr<Colliding>(new Colliding{
         .query{e.scene(), query::Collision::thing_of(e.scene(), drag.thing()), drag.dragged(), e.up()}, .met = {}});
 }
@@ -51,7 +51,7 @@ void draw_colliding(PanelContext& e, const Drag& drag) {
 
 glm::dvec3 room_for(const PanelContext& e, const scene::Scene& from, std::span<const InstanceId> ids,
                     const glm::dmat4& move) {
-    if (!e.viewport.collide) return glm::dvec3(0);
+    if (!e.preferences.collide) return glm::dvec3(0);
     auto thing = query::Collision::thing_of(from, ids);
     for (auto& part : thing)
         part.place = move * part.place;

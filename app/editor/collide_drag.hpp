@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moved things do not enter others (query/collision.hpp), if Viewport::collide is on.
+// Moved things do not enter others (query/collision.hpp), if Preferences::collide is on.
 #pragma once
 
 #include "query/collision.hpp"

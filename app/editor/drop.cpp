@@ -3,6 +3,7 @@
 #include "drop.hpp"
 
 #include "collide_drag.hpp"
+#include "document/linking.hpp"
 #include "document/session.hpp"
 #include "editor.hpp"
 #include "files.hpp"
@@ -217,6 +218,7 @@ void preview_drop(PanelContext& e, const fs::path& path, ImVec2 screen) {
     } else if (is_inserted(e, path)) {
         e.drop_target = on;
         text = on ? fmt::format("{}, to stand on {}", name, e.scene().instances[on].name) : name + ", into the scene";
+        text += ImGui::GetIO().KeyAlt ? ", linked" : " (with Alt: linked)";
     } else {
         text = name + " is opened";
     }
@@ -292,9 +294,9 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
                 *this, imported.scene, ids,
                 glm::translate(glm::dmat4(1), at - box.center() + 0.5 * std::abs(glm::dot(box.size(), up_)) * up_));
     }
-    const auto made =
-        session_->insert(imported, request.path.string(),
-                         document::Session::Stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal});
+    const document::Session::Stand stand{at, up_, hits.empty() ? glm::dvec3(0) : hits[0].normal};
+    const auto made = request.link ? document::link(*session_, imported, request.path.string(), stand)
+                                   : session_->insert(imported, request.path.string(), stand);
     if (!made) {
         notices.add(LogLevel::error, made.error().message);
         return;
@@ -302,7 +304,8 @@ void Editor::place_inserted(const io::ImportedScene& imported) {
     selection.set(made->instances);
     const auto dropped = imported.report.count(io::Fate::dropped);
     notices.add(LogLevel::info,
-                fmt::format("{}: {} objects inserted{}", request.path.filename().string(), made->instances.size(),
+                fmt::format("{}: {} objects {}{}", request.path.filename().string(), made->instances.size(),
+                            request.link ? "linked" : "inserted",
                             dropped ? fmt::format(", {} things dropped: see Import report", dropped) : ""));
 }
 

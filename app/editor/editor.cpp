@@ -85,6 +85,7 @@ void Editor::open(const std::filesystem::path& path) {
 void Editor::insert(const std::filesystem::path& path, std::optional<glm::dvec2> film_point) {
     open_now({.path = std::filesystem::absolute(path).lexically_normal(),
               .purpose = Opening::Purpose::insert,
+              .link = ImGui::GetIO().KeyAlt,
               .film_point = film_point});
 }
 
@@ -131,6 +132,7 @@ void Editor::frame(const std::vector<int>* keys) {
     draw_panels();
     draw_palette(*this);
     tour.update(*this);
+    links_.follow(*this);
     files_->jobs.update(*this);
     draw_modals();
     // A gesture ends when nothing is held any more and the sky of its last step is complete.

@@ -4,6 +4,7 @@
 // is [main] and inside a Dear ImGui frame unless stated otherwise.
 #pragma once
 
+#include "linking.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "shown_scene.hpp"
@@ -66,6 +67,7 @@ class Editor final : public PanelContext {
 
     Preferences remembered_;
     ShownScene shown_scene_;
+    LinkWatch links_;
     double plugins_looked_at_ = 0; // [s], as ImGui::GetTime
     std::optional<glm::dmat4> camera_place_; // of the scene's camera as last seen by the view
     bool quit_ = false, reset_layout_ = false;

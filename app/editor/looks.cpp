@@ -3,10 +3,14 @@
 
 #include "contexts.hpp"
 #include "document/looks.hpp"
+#include "document/variants.hpp"
+#include "files.hpp"
+#include "panel_context.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
+#include <memory>
 
 namespace restage::editor {
 
@@ -61,6 +65,31 @@ void step_look(SelectContext& e, int by) {
     if (count == 0) return;
     const int from = looks.current == Looks::none ? (by > 0 ? -1 : 0) : int(looks.current);
     go_to_look(e, std::size_t((from + by + count) % count));
+}
+
+bool has_variants(const DocumentContext& e) { return !document::variants_of(e.session()).empty(); }
+
+void looks_from_variants(DocumentContext& e) {
+    e.files().jobs.start(
+        {.title = "Reading the variants"},
+        [names = document::variants_of(e.session()), base = e.session().base(), document = e.document(),
+         &registry = e.registry(),
+         isolate = e.options().isolate](BackgroundJob&) -> std::function<void(PanelContext&)> {
+            auto read = document::read_variants(base, names, registry, {.isolate = isolate});
+            if (!read)
+                return [message = read.error().message](PanelContext& editor) {
+                    editor.notices.add(LogLevel::error, message);
+                };
+            return [document, variants = std::make_shared<const std::vector<document::Variant>>(std::move(*read))](
+                       PanelContext& editor) {
+                if (editor.document() != document) return; // another one is open now
+                editor.change([&editor, variants](document::Session& session) {
+                    const auto made = document::looks_from_variants(session, *variants);
+                    report(editor, made);
+                    if (made) editor.notices.add(LogLevel::info, fmt::format("New looks: {}", fmt::join(*made, ", ")));
+                });
+            };
+        });
 }
 
 bool has_looks(const DocumentContext& e) { return !e.session().looks().list.empty(); }

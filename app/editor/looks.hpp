@@ -19,6 +19,9 @@ void new_look(SelectContext& editor); // as seen
 void update_look(SelectContext& editor, std::size_t index); // as seen
 void go_to_look(SelectContext& editor, std::size_t index); // the view goes to its camera
 void step_look(SelectContext& editor, int by); // to the next or previous one, around
+// A look for each material variant of the document's file, which is read on a thread.
+void looks_from_variants(DocumentContext& editor);
+bool has_variants(const DocumentContext& editor);
 bool has_looks(const DocumentContext& editor);
 bool has_current_look(const DocumentContext& editor);
 

@@ -29,6 +29,7 @@ class Opening {
         Purpose purpose = Purpose::replace;
         std::filesystem::path base = {}; // of a project: instead of the one it names
         bool drop_lost = false;          // see document::ReadOptions
+        bool link = false; // insert: as a link (document/linking.hpp)
         std::optional<glm::dvec2> film_point = {}; // insert: its position in the picture
         std::optional<scene::ParamSet> import_options = {}; // see document::ReadOptions
     };

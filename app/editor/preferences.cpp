@@ -32,6 +32,8 @@ Preferences read_preferences(const std::filesystem::path& config_dir) {
     if (const auto seen = j.find("hint_seen"); seen != j.end() && seen->is_boolean()) preferences.hint_seen = *seen;
     if (const auto whole = j.find("whole_things"); whole != j.end() && whole->is_boolean())
         preferences.whole_things = *whole;
+    if (const auto collide = j.find("collide"); collide != j.end() && collide->is_boolean())
+        preferences.collide = *collide;
     if (const auto keys = j.find("keys"); keys != j.end() && *keys == "blender") preferences.keys = KeyPreset::blender;
     if (const auto theme = j.find("theme"); theme != j.end() && *theme == "light") preferences.theme = Theme::light;
     const auto step = [&](const char* key, float& value, float most) {
@@ -58,6 +60,7 @@ void write_preferences(const std::filesystem::path& config_dir, const Preference
         if (*on) to.emplace_back(name);
     const nlohmann::json j{{"hint_seen", preferences.hint_seen},
                            {"whole_things", preferences.whole_things},
+                           {"collide", preferences.collide},
                            {"keys", preferences.keys == KeyPreset::blender ? "blender" : "standard"},
                            {"theme", preferences.theme == Theme::light ? "light" : "dark"},
                            {"snap_move", preferences.snap_move},

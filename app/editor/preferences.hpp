@@ -25,6 +25,7 @@ struct Preferences {
     SnapTo snap_to;
     int history_mib = 512; // memory budget of the history [MiB], 16 to 65536
     bool whole_things = true; // a click takes all parts of what it hits
+    bool collide = false; // moved things do not enter others: collide_drag.hpp
     std::string denoiser; // type or id of its plugin; "" = the one shipped with the program
     bool operator==(const Preferences&) const = default;
 };

@@ -147,18 +147,26 @@ void open_dialog(Editor& e) {
                .details = import_options_part});
 }
 
-void insert_dialog(Editor& e) {
-    browse(e, {.title = "Insert file",
+namespace {
+
+void add_file(Editor& e, bool link) {
+    browse(e, {.title = link ? "Link file" : "Insert file",
                .filters = scene_filters(e.registry(), false),
                .start = document_folder(e),
                .done =
-                   [&e](PanelContext& editor, const fs::path& path) {
+                   [&e, link](PanelContext& editor, const fs::path& path) {
                        e.open_now({.path = path,
                                    .purpose = Opening::Purpose::insert,
+                                   .link = link,
                                    .import_options = import_options_for(editor, path)});
                    },
                .details = import_options_part});
 }
+
+} // namespace
+
+void insert_dialog(Editor& e) { add_file(e, false); }
+void link_dialog(Editor& e) { add_file(e, true); }
 
 void save(Editor& e, Then then) {
     if (document::is_project(e.session().path()))

@@ -26,6 +26,7 @@ std::vector<FileFilter> scene_filters(const plugin::Registry& registry, bool pro
 void new_scene(Editor& editor); // a studio: a floor, a neutral sky, a camera
 void open_dialog(Editor& editor);
 void insert_dialog(Editor& editor);
+void link_dialog(Editor& editor);
 void save(Editor& editor, Then then = {}); // to its previous file, else save_as
 void save_as(Editor& editor, Then then = {});
 void revert(Editor& editor);

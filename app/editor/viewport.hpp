@@ -30,7 +30,6 @@ class Viewport {
     // The picture's rectangle on screen, of the last frame.
     ImVec2 corner{0, 0}, size{1, 1};
     Drag gizmo_drag; // of the handles
-    bool collide = false; // moved things do not enter others: collide_drag.hpp
     Measurement measurement;
     RenderRegion region;
     TexturePlacing placing;

@@ -2,6 +2,7 @@
 #include "document/looks.hpp"
 
 #include "scene/edits.hpp"
+#include "scene/links.hpp"
 #include "scene/uses.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +66,15 @@ class Difference {
         table<T>(now_).each([&](Id<T> id, const T& before) {
             const T* look = table<T>(look_).find(id);
             if (look == &before) return; // shared
-            if (look)
+            if (linked_.contains(id)) { // its file says what it is
+                if constexpr (std::is_same_v<T, Instance>)
+                    if (look) {
+                        T after = before;
+                        after.object_to_world = look->object_to_world;
+                        after.hidden = look->hidden;
+                        change(id, before, std::move(after));
+                    }
+            } else if (look)
                 change(id, before, dressed(before, *look));
             else if constexpr (requires { before.hidden; }) {
                 T after = before;
@@ -133,6 +142,7 @@ class Difference {
 
     const Scene& now_;
     const Scene& look_;
+    const LinkedItems linked_{now_};
     std::set<std::pair<std::string_view, std::uint32_t>> brought_;
     LookChange result_;
 };

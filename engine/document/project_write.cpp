@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/json.hpp"
 #include "io/sun_disk.hpp"
+#include "scene/links.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -26,7 +27,9 @@ constexpr std::uint32_t coarse_sky_width = 32; // 12 KiB: enough for its light, 
 
 class Writer {
   public:
-    Writer(const ProjectContent& content, const std::filesystem::path& folder) : content_(content), folder_(folder) {
+    // `linked`: with its links, which the content's scene is without.
+    Writer(const ProjectContent& content, const Scene& linked, const std::filesystem::path& folder)
+        : content_(content), linked_(linked), folder_(folder) {
         // New items are numbered consecutively after the base's: holes left by undone edits are not differences.
         each_kind([&]<class T>(const Kind<T>& kind) {
             const auto& base = content.base.scene.*kind.table;
@@ -76,6 +79,8 @@ class Writer {
             if (!part.empty()) j[kind.plural] = std::move(part);
         });
         if (content_.looks && !content_.looks->list.empty()) j["looks"] = looks(*content_.looks);
+        for (const Id<Group> id : all_links(linked_))
+            j["links"].push_back(link(id));
         return j;
     }
 
@@ -292,6 +297,22 @@ class Writer {
         return part;
     }
 
+    // Its file and where it stands: the objects are read again.
+    json link(Id<Group> id) {
+        const Group& group = linked_.groups[id];
+        const LinkSource source = *link_source(group);
+        json j{{"name", group.name}};
+        path_in(j["file"], source.file);
+        j["format"] = source.format;
+        if (!source.options.empty()) j["options"] = source.options;
+        j["place"] = to_json(place_of(linked_, id));
+        const std::vector<Id<Instance>> objects = objects_of(linked_, id);
+        if (std::ranges::all_of(objects, [&](Id<Instance> one) { return linked_.instances[one].hidden; }))
+            j["hidden"] = true;
+        if (content_.scene.groups.find(group.parent)) j["group"] = ref(group.parent);
+        return j;
+    }
+
     // Each as what changes when one goes to it.
     json looks(const Looks& looks) {
         json list = json::array();
@@ -323,6 +344,7 @@ class Writer {
     }
 
     const ProjectContent& content_;
+    const Scene& linked_;
     const std::filesystem::path& folder_;
     json sizes_;
     std::map<std::string, std::map<std::uint32_t, std::uint32_t>> numbers_; // by kind: id -> number in the file
@@ -346,14 +368,15 @@ void put_back(json& into, const json& unknown) {
 } // namespace
 
 std::string project_text(const ProjectContent& content, const std::filesystem::path& folder) {
-    const Scene whole = content.looks ? with_kept(content.scene, *content.looks) : content.scene;
+    const Scene own = without_links(content.scene);
+    const Scene whole = content.looks ? with_kept(own, *content.looks) : own;
     const ProjectContent kept{.base = content.base,
                               .scene = whole,
                               .sources = content.sources,
                               .unknown = content.unknown,
                               .looks = content.looks,
                               .note = content.note};
-    json j = Writer(kept, folder).document();
+    json j = Writer(kept, content.scene, folder).document();
     if (!content.unknown.empty()) {
         json unknown = parse_json<json>(content.unknown).value_or(json());
         if (unknown.is_object()) put_back(j, unknown);

@@ -6,6 +6,7 @@
 #include "document/project.hpp"
 #include "io/material_tables.hpp"
 #include "scene/bounds.hpp"
+#include "scene/links.hpp"
 #include "scene/validate.hpp"
 
 #include <fmt/format.h>
@@ -80,6 +81,7 @@ void Session::adopt_recovered(Document document) {
 Result<bool> Session::edit(Result<Edit> edit, std::string_view gesture) {
     if (!edit) return tl::unexpected<Error>(std::move(edit.error()));
     RESTAGE_CHECK(check_edit(*edit));
+    RESTAGE_CHECK(check_links(scene_, *edit));
     return history_.push(scene_, std::move(*edit), gesture);
 }
 

@@ -2,6 +2,8 @@
 #include "scene/merge.hpp"
 
 #include "scene/edits.hpp"
+#include "scene/links.hpp"
+#include "scene/share_materials.hpp"
 #include "scene/tables.hpp"
 #include "scene/uses.hpp"
 
@@ -51,6 +53,7 @@ class Ids {
         const auto it = map_.find(old.value);
         return it == map_.end() ? Id<T>{} : it->second;
     }
+    void put(std::uint32_t old, Id<T> now) { map_[old] = now; }
 
   private:
     std::unordered_map<std::uint32_t, Id<T>> map_;
@@ -108,18 +111,28 @@ Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
     from.environment.value.reset();
     from.settings.value.camera_medium = {};
     apply(from, remove_unused(from));
+    const auto shared = shared_materials(into, from);
+    Edit had;
+    for (const auto& [id, same] : shared) // the document's are used instead
+        had.changes.push_back(Change<Material>{{id}, from.materials[{id}], std::nullopt});
+    apply(from, had);
+    apply(from, remove_unused(from));
 
     Merged result;
-    result.edit.label = "Insert " + name;
+    const std::vector<Id<Group>> links = name.empty() ? std::vector<Id<Group>>{} : all_links(from);
+    const Id<Group> link = links.size() == 1 ? links[0] : Id<Group>{}; // needs no group around it
+    result.edit.label = (link ? "Link " : "Insert ") + name;
     // The enclosing group comes first, before the inserted groups.
-    const bool several = !name.empty() && from.instances.live() + from.lights.live() > 1;
+    const bool several = !link && !name.empty() && from.instances.live() + from.lights.live() > 1;
     if (several) result.group = into.groups.next();
-    const auto ids = std::apply(
+    auto ids = std::apply(
         [&]<class... T>(const Kind<T>&... kind) {
             return std::tuple{Ids<T>(from.*kind.table, (into.*kind.table).next().value +
                                                            (std::is_same_v<T, Group> && several ? 1u : 0u))...};
         },
         kinds);
+    for (const auto& [id, same] : shared)
+        std::get<Ids<Material>>(ids).put(id, same);
     const Place place{.frame = frame_change(into, from), .group = result.group};
     each_kind([&]<class T>(const Kind<T>& kind) {
         if constexpr (!std::is_same_v<T, Camera>) {
@@ -137,6 +150,7 @@ Merged merge(const Scene& into, const Scene& whole, const std::string& name) {
             });
         }
     });
+    if (link) result.group = std::get<Ids<Group>>(ids)(link);
     from.instances.each(
         [&](Id<Instance> id, const Instance&) { result.instances.push_back(std::get<Ids<Instance>>(ids)(id)); });
     return result;

@@ -11,27 +11,35 @@ namespace {
 
 constexpr int deepest = 64; // graphs have no cycles unless a file is broken
 
+bool same_pixels(const PixelData& a, const PixelData& b) {
+    return a.width == b.width && a.height == b.height && a.channels == b.channels && a.values == b.values;
+}
+
 struct Pair {
     const Scene &a, &b;
+    bool to_share = false; // origins have to be equal, too, and images need not be of one file
 
     bool images(Id<Image> x, Id<Image> y) const {
         const Image *i = a.images.find(x), *j = b.images.find(y);
         if (!i || !j) return !i && !j;
-        const bool same_pixels = i->data == j->data || (!i->path.empty() && i->path == j->path);
-        return same_pixels && i->encoding == j->encoding && (i->encoding != Encoding::gamma || i->gamma == j->gamma);
+        const bool equal = to_share && i->data && j->data && same_pixels(*i->data, *j->data);
+        const bool same = equal || (i->data == j->data && (i->data || !to_share || i->path == j->path)) ||
+                          (!i->path.empty() && i->path == j->path);
+        return same && i->encoding == j->encoding && (i->encoding != Encoding::gamma || i->gamma == j->gamma);
     }
 
     bool textures(Id<Texture> x, Id<Texture> y, int depth) const {
         const Texture *s = a.textures.find(x), *t = b.textures.find(y);
         if (!s || !t) return !s && !t;
-        return depth < deepest && s->type == t->type && s->is_float == t->is_float && images(s->image, t->image) &&
-               params(s->params, t->params, depth + 1);
+        return depth < deepest && (!to_share || s->origin == t->origin) && s->type == t->type &&
+               s->is_float == t->is_float && images(s->image, t->image) && params(s->params, t->params, depth + 1);
     }
 
     bool materials(Id<Material> x, Id<Material> y, int depth) const {
         const Material *m = a.materials.find(x), *n = b.materials.find(y);
         if (!m || !n) return !m && !n;
-        return depth < deepest && m->type == n->type && params(m->params, n->params, depth + 1);
+        return depth < deepest && (!to_share || m->origin == n->origin) && m->type == n->type &&
+               params(m->params, n->params, depth + 1);
     }
 
     bool params(const ParamSet& p, const ParamSet& q, int depth) const { // in any order
@@ -91,6 +99,10 @@ std::uint64_t material_hash(const Scene& scene, Id<Material> id) {
 
 bool same_material(const Scene& a, Id<Material> of_a, const Scene& b, Id<Material> of_b) {
     return a.materials.find(of_a) && b.materials.find(of_b) && Pair{a, b}.materials(of_a, of_b, 0);
+}
+
+bool identical_material(const Scene& a, Id<Material> of_a, const Scene& b, Id<Material> of_b) {
+    return a.materials.find(of_a) && b.materials.find(of_b) && Pair{a, b, true}.materials(of_a, of_b, 0);
 }
 
 Id<Material> find_same_material(const Scene& in, const Scene& other, Id<Material> of_other) {

@@ -12,6 +12,9 @@ namespace restage::scene {
 // A value that is set to its default differs from one that is not set. False if either does not exist.
 bool same_material(const Scene& a, Id<Material> of_a, const Scene& b, Id<Material> of_b);
 
+// Equal in their origins, too, which say more in spectral mode; images of two files are if their pixels are equal.
+bool identical_material(const Scene& a, Id<Material> of_a, const Scene& b, Id<Material> of_b);
+
 // Equal for equal materials, on every machine; of images the pixels count. 0 if it does not exist.
 std::uint64_t material_hash(const Scene&, Id<Material>);
 

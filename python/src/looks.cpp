@@ -2,7 +2,9 @@
 // Looks of a session: document/looks.hpp.
 #include "document/looks.hpp"
 #include "collections.hpp"
+#include "document/variants.hpp"
 #include "values.hpp"
+#include "work.hpp"
 
 #include <limits>
 
@@ -46,6 +48,17 @@ void bind_looks(nb::class_<Workspace>& c) {
             "Records how things are now as a new look: places, visibility, materials and their values, lights, sky,\n"
             "exposure, camera. name: \"\" = \"Look 1\", \"Look 2\" ... One undo step, as are the other changes of "
             "looks.")
+        .def(
+            "looks_from_variants",
+            [](Workspace& w) {
+                const auto names = document::variants_of(w.session());
+                const auto read = work(w.host(), nb::none(), [&](io::Progress) {
+                    return document::read_variants(w.session().base(), names, w.host().registry());
+                });
+                return take(document::looks_from_variants(w.session(), read));
+            },
+            "A look for each material variant of a glTF file, in which only materials differ from how things are now; "
+            "returns their names.\nError: the file has none.")
         .def(
             "go_to_look",
             [](Workspace& w, const std::string& name) {

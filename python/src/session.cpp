@@ -4,13 +4,16 @@
 #include "values.hpp"
 #include "work.hpp"
 
+#include "document/linking.hpp"
 #include "document/pack.hpp"
 #include "document/preset.hpp"
 #include "document/project.hpp"
 #include "io/strict.hpp"
 #include "query/wholes.hpp"
 #include "scene/development.hpp"
+#include "scene/links.hpp"
 #include "scene/same_material.hpp"
+#include "scene/share_materials.hpp"
 #include "scene/sky.hpp"
 #include "scene/studio.hpp"
 
@@ -156,7 +159,7 @@ nb::object find(const Shared& w, const std::string& name) {
 }
 
 nb::object insert_file(const Shared& w, const std::filesystem::path& path, const nb::object& progress,
-                       const std::optional<nb::dict>& options_given) {
+                       const std::optional<nb::dict>& options_given, bool link) {
     const std::optional<ParamSet> wanted = import_options(options_given);
     const auto imported = work(w->host(), progress, [&](io::Progress tell) {
         io::ImportOptions options;
@@ -164,9 +167,22 @@ nb::object insert_file(const Shared& w, const std::filesystem::path& path, const
         if (wanted) options.values = *wanted;
         return io::import_scene(path.string(), w->host().registry(), options);
     });
-    const auto merged = take(w->session().insert(imported, path.string()));
+    const auto merged = take(link ? document::link(w->session(), imported, path.string())
+                                  : w->session().insert(imported, path.string()));
     if (merged.group) return nb::cast(Handle<Group>{w, merged.group});
     return nb::cast(Handle<Instance>{w, merged.instances.at(0)});
+}
+
+void reload_links(const Shared& w, const nb::object& progress) {
+    for (const Id<Group> id : all_links(w->scene())) {
+        const LinkSource source = *link_source(w->scene().groups[id]);
+        const auto imported = work(w->host(), progress, [&](io::Progress tell) {
+            document::ReadOptions reading = document::reading_of(source, w->host().registry());
+            reading.progress = std::move(tell);
+            return document::read_scene(source.file, w->host().registry(), reading, source.format);
+        });
+        take(document::reload_link(w->session(), id, imported));
+    }
 }
 
 io::Report export_to(const Shared& w, const std::filesystem::path& path, const std::string& format,
@@ -384,11 +400,26 @@ void bind_contents(nb::class_<Workspace>& c) {
              nb::sig("def add_preset(self, path: str | os.PathLike) -> Material"))
         .def("add_light", &add_light, "kind"_a, "value"_a = Three{1, 1, 1}, "name"_a = "Light",
              "A new light at the origin. kind: point, spot or distant; value: see Light.value.")
-        .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(), "options"_a = nb::none(),
-             "The objects of another file, as one group (or one object). progress and options: see restage.open.",
+        .def("insert", &insert_file, "path"_a, "progress"_a = nb::none(), "options"_a = nb::none(), "link"_a = false,
+             "The objects of another file, as one group (or one object). progress and options: see restage.open. "
+             "link: they stay the file's, are changed only as a whole, and follow the file; a project stores its path. "
+             "Materials that the scene has already, under the same name, are shared.",
              nb::sig("def insert(self, path: str | os.PathLike, progress: collections.abc.Callable[[float, str], "
-                     "bool | None] | None = None, options: dict[str, str | float | bool] | None = None) -> "
-                     "Group | Object"))
+                     "bool | None] | None = None, options: dict[str, str | float | bool] | None = None, "
+                     "link: bool = False) -> Group | Object"))
+        .def("reload_links", &reload_links, "progress"_a = nb::none(),
+             "Reads the files of all links again; each is one undo step. progress: see restage.open.",
+             nb::sig("def reload_links(self, progress: collections.abc.Callable[[float, str], bool | None] | None = "
+                     "None) -> None"))
+        .def(
+            "merge_equal_materials",
+            [](Workspace& w) {
+                MergedMaterials merged = merge_equal_materials(w.scene());
+                if (merged.merged > 0) w.edit(std::move(merged.edit));
+                return merged.merged;
+            },
+            "One material instead of several that are equal and called the same but for a number at the end; returns "
+            "how many were removed.")
         .def(
             "remove_unused", [](Workspace& w) { w.edit(remove_unused(w.scene())); },
             "Removes every mesh, image, texture, material and group that is not used.")

@@ -7,9 +7,11 @@
 #include "query/support.hpp"
 #include "scene/arrange.hpp"
 #include "scene/box_projection.hpp"
+#include "scene/links.hpp"
 #include "scene/path_array.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
@@ -379,6 +381,16 @@ nb::class_<ObjectHandle> bind_things(nb::module_& m) {
             return GroupHandle{h.in, h.get().parent};
         },
         "The group it is in, or None.");
+    group.def_prop_ro(
+        "linked_file",
+        [](const GroupHandle& h) -> std::optional<std::filesystem::path> {
+            const auto source = link_source(h.get());
+            return source ? std::optional<std::filesystem::path>(source->file) : std::nullopt;
+        },
+        "The file whose objects it shows, or None; see Session.insert.");
+    group.def(
+        "make_editable", [](const GroupHandle& h) { h.in->edit(scene::make_editable(h.in->scene(), h.id)); },
+        "A link becomes an ordinary group of this document.");
 
     nb::class_<Selection> selection(m, "Selection", "Some objects, handled as one; see Session.select.");
     bind_verbs(selection);

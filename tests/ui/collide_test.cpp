@@ -92,7 +92,7 @@ TEST_CASE("a crate stops at another one, unless Shift is held or Collide is off"
         ctx->Yield(3);
 
         h.click(ctx, "view.collide");
-        IM_CHECK(e.viewport.collide);
+        IM_CHECK(e.preferences.collide);
         drag(0);
         IM_CHECK(h.has(ctx, "collide.hint"));
         release();
@@ -113,7 +113,7 @@ TEST_CASE("a crate stops at another one, unless Shift is held or Collide is off"
 
         ctx->KeyPress(ImGuiMod_Ctrl | ImGuiKey_K);
         ctx->Yield(2);
-        IM_CHECK(!e.viewport.collide);
+        IM_CHECK(!e.preferences.collide);
     });
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("a crate dragged by the knob slides along another one and comes down o
     Headless h("demo/demo.pbrt");
     editor::Editor& e = h.editor();
     e.selection.whole_things = false;
-    e.viewport.collide = true;
+    e.preferences.collide = true;
     const Crates crates = add_crates(h);
     h.select("held crate");
     const std::size_t before = h.step();

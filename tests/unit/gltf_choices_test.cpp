@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes and material variants of glTF files: what there is to choose from is told, and a choice is read.
+#include "document/looks.hpp"
+#include "document/variants.hpp"
 #include "gltf_builder.hpp"
 #include "io/choices.hpp"
 
@@ -81,4 +83,43 @@ TEST_CASE("a variant that names a missing material is an error", "[gltf]") {
     const auto in = io::import_scene(files.path("bad.gltf"), files.registry, options);
     REQUIRE_FALSE(in);
     CHECK_THAT(in.error().message, Catch::Matchers::ContainsSubstring("material 7"));
+}
+
+TEST_CASE("each variant becomes a look in which only materials differ", "[gltf][looks]") {
+    const Read files;
+    document::Session session(files.registry);
+    REQUIRE(session.open(files.path("shop.gltf")));
+    const auto chair = session.find<scene::Instance>("chair");
+    const auto material = [&](const document::Session& s) {
+        return s.scene().materials[s.scene().instances[chair].material].name;
+    };
+    const std::vector<std::string> names = document::variants_of(session);
+    REQUIRE(names == std::vector<std::string>{"Day", "Night"});
+    const auto read = document::read_variants(session.base(), names, files.registry);
+    REQUIRE(read);
+    const auto made = document::looks_from_variants(session, *read);
+    REQUIRE(made);
+    CHECK(*made == names);
+    CHECK(session.history().size() == 1); // one step
+    CHECK(material(session) == "red"); // the scene stays as it is
+
+    scene::Instance before = session.scene().instances[chair];
+    REQUIRE(document::go_to_look(session, 1));
+    CHECK(material(session) == "blue");
+    scene::Instance after = session.scene().instances[chair];
+    after.material = before.material;
+    CHECK(after == before);
+
+    REQUIRE(session.save_project(files.path("shop.restage")));
+    document::Session again(files.registry);
+    REQUIRE(again.open(files.path("shop.restage")));
+    REQUIRE(again.looks().list.size() == 2);
+    CHECK(material(again) == "blue");
+    REQUIRE(document::go_to_look(again, 0));
+    CHECK(material(again) == "red");
+
+    REQUIRE(session.undo());
+    REQUIRE(session.undo());
+    CHECK(session.looks().list.empty());
+    CHECK(document::looks_from_variants(session, {}).error().message == "the file has no variants");
 }

@@ -4,6 +4,7 @@
 #include "outliner.hpp"
 
 #include "actions.hpp"
+#include "linking.hpp"
 #include "panels.hpp"
 #include "panels/state.hpp"
 #include "scene/edits.hpp"
@@ -227,6 +228,7 @@ void group_row(SelectContext& e, OutlinerState& state, const Row& row) {
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) start_renaming(state, row, group->name);
     }
     e.mark("outliner.group." + group->name);
+    link_note(e, *group);
     drag_source(e, state, [&] {
         state.dragged = dragged_groups(e, id);
         if (!state.dragged.empty()) return;
