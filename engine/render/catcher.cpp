@@ -38,4 +38,18 @@ void remove_shadows(FilmImage& image) {
         image.color[i] -= image.backdrop[i] * (ratios[i] - 1.f);
 }
 
+void scale_errors(FilmImage& image) {
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        if (image.caught[i] == 0) continue;
+        const glm::vec3 behind = image.backdrop[i] / glm::max(image.without[i], glm::vec3(1e-20f));
+        const double light = luminance(image.without[i]);
+        const double factor = light > 0 ? luminance(image.backdrop[i]) / light : 0;
+        // Beside other objects in the pixel, both count.
+        image.std_error[i] *= glm::mix(glm::vec3(1), behind, image.caught[i]);
+        image.sample_error[i] *= glm::mix(glm::vec3(1), behind, image.caught[i]);
+        image.luminance_variance[i] *= float(glm::mix(1.0, factor * factor, double(image.caught[i])));
+        image.twin[i] = glm::vec2(0);
+    }
+}
+
 } // namespace restage::render

@@ -22,5 +22,7 @@ void set_alpha(FilmImage&, std::span<const glm::vec3> ratios);
 void add_shadows(FilmImage&, std::span<const glm::vec3> ratios);
 // The inverse, of shadow_ratios() for the colours: `color` is the picture without shadows on catchers.
 void remove_shadows(FilmImage&);
+// Errors on catchers, from those of L_with - L_without, which a film measures, to those of the picture; without twins.
+void scale_errors(FilmImage&);
 
 } // namespace restage::render

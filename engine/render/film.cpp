@@ -114,6 +114,7 @@ FilmImage Film::read() const {
         for (std::size_t i = 0; i < n; ++i) // the film has L_with - L_without there
             image.color[i] = (image.caught[i] < 1 ? image.color[i] - image.shade[i] : glm::vec3(0)) + image.backdrop[i];
         add_shadows(image, shadow_ratios(image));
+        scale_errors(image);
     }
     image.samples = least_samples();
     return image;

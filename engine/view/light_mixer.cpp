@@ -2,6 +2,7 @@
 #include "view/light_mixer.hpp"
 
 #include "base/thread_priority.hpp"
+#include "render/catcher.hpp"
 #include "render/denoise.hpp"
 #include "render/film_error.hpp"
 #include "render/renderer.hpp"
@@ -25,6 +26,19 @@ std::uint32_t LightPictures::samples() const {
     return layers.empty() ? 0 : least;
 }
 
+namespace {
+
+// The light on catchers with objects, divided by that without, as it is in the layer's picture.
+std::vector<glm::vec3> ratios_of(const LightPicture& layer, bool clean) {
+    const render::FilmImage& film = layer.film;
+    std::vector<glm::vec3> ratios = render::shadow_ratios(film);
+    for (std::size_t i = 0; clean && i < ratios.size(); ++i) // what a denoised picture tells of it
+        if (film.caught[i] > 0) ratios[i] = glm::vec3(1 - (film.coverage[i] - film.alpha[i]) / film.caught[i]);
+    return ratios;
+}
+
+} // namespace
+
 render::FilmImage mix(const LightPictures& pictures, std::span<const glm::vec3> weights, bool clean) {
     render::FilmImage sum = pictures.layers.front()->film;
     sum.samples = pictures.samples();
@@ -33,14 +47,31 @@ render::FilmImage mix(const LightPictures& pictures, std::span<const glm::vec3> 
     std::ranges::fill(sum.luminance_variance, 0.f);
     std::ranges::fill(sum.twin, glm::vec2(0));
     std::ranges::fill(sum.color, glm::vec3(0));
+    // Shadows on catchers are ratios of sums over all lights.
+    const bool catchers =
+        std::ranges::all_of(pictures.layers, [](const auto& layer) { return render::has_catchers(layer->film); });
+    if (catchers)
+        for (auto* values : {&sum.shade, &sum.without, &sum.backdrop})
+            std::ranges::fill(*values, glm::vec3(0));
     for (std::size_t i = 0; i < pictures.layers.size(); ++i) {
         const LightPicture& layer = *pictures.layers[i];
-        const std::vector<glm::vec3>& color = clean && !layer.clean.empty() ? layer.clean : layer.film.color;
+        const bool is_clean = clean && !layer.clean.empty();
+        const std::vector<glm::vec3>& color = is_clean ? layer.clean : layer.film.color;
         const glm::vec3 weight = i < weights.size() ? weights[i] : glm::vec3(1);
         if (weight == glm::vec3(0)) continue;
         for (std::size_t at = 0; at < sum.color.size(); ++at)
             sum.color[at] += weight * color[at];
+        if (!catchers) continue;
+        const std::vector<glm::vec3> ratios = ratios_of(layer, is_clean);
+        for (std::size_t at = 0; at < sum.color.size(); ++at) {
+            const glm::vec3 without = weight * layer.film.without[at], behind = weight * layer.film.backdrop[at];
+            sum.color[at] -= behind * (ratios[at] - 1.f);
+            sum.without[at] += without;
+            sum.shade[at] += without * (ratios[at] - 1.f);
+            sum.backdrop[at] += behind;
+        }
     }
+    if (catchers) render::add_shadows(sum, render::shadow_ratios(sum));
     return sum;
 }
 

@@ -3,6 +3,7 @@
 #include "render/catcher.hpp"
 #include "render/agreement.hpp"
 #include "render/checks.hpp"
+#include "render/film_error.hpp"
 #include "view/merge_pictures.hpp"
 
 #include <array>
@@ -176,4 +177,26 @@ TEST_CASE("catcher: merged parts have the shadows of the whole") {
         CHECK(std::abs(merged->color[i].y - whole.color[i].y) < 1e-5f);
         CHECK(std::abs(merged->alpha[i] - whole.alpha[i]) < 1e-5f);
     }
+}
+
+TEST_CASE("catcher: standard errors are those of the picture") {
+    SceneBuilder b;
+    b.set_film(48, 48);
+    b.set_camera({0, -9, 4}, {0, 0, 0.5}, {0, 0, 1}, 40);
+    b.environment(glm::vec3(0.02f)); // the catcher would be much brighter than what is behind it
+    b.light({.kind = scene::LightKind::point, .value = glm::vec3(60), .light_to_world = placed({3, -2, 4})});
+    catcher(b);
+    b.instance(b.sphere(), b.diffuse(0.9f, 0.2f, 0.1f), placed({0, 0, 1}));
+    const auto a = trace_scene("embree", b.scene, 64, 1).image, c = trace_scene("embree", b.scene, 64, 2).image;
+    double squares = 0, count = 0;
+    for (std::size_t i = 0; i < a.pixels(); ++i) {
+        const double variance = double(a.luminance_variance[i]) + double(c.luminance_variance[i]);
+        if (a.caught[i] < 1 || c.caught[i] < 1 || !(variance > 0)) continue;
+        squares += std::pow(render::luminance(a.color[i]) - render::luminance(c.color[i]), 2) / variance;
+        ++count;
+    }
+    INFO("mean of z^2 " << squares / count << " over " << count);
+    REQUIRE(count > 100);
+    CHECK(squares / count > 0.3);
+    CHECK(squares / count < 3);
 }

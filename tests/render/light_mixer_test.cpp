@@ -5,6 +5,7 @@
 #include "render/checks.hpp"
 #include "scene/edit.hpp"
 
+#include <catch2/generators/catch_generators.hpp>
 #include <chrono>
 #include <thread>
 
@@ -16,10 +17,11 @@ namespace {
 
 // A box on a coloured floor, under a sky, a point light and two lamps. What is tinted is reflected as such.
 struct Stage : SceneBuilder {
-    Stage() {
+    explicit Stage(bool catcher = false) {
         set_film(24, 16);
         set_camera({0, -6, 4}, {0, 0, 0.5}, {0, 0, 1}, 40);
-        instance(quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}), diffuse(0.8f, 0.5f, 0.3f));
+        const auto floor = instance(quad({-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}), diffuse(0.8f, 0.5f, 0.3f));
+        edit_instance(*this, floor, [&](scene::Instance& i) { i.catcher = catcher; });
         instance(cube(*this), diffuse(0.3f, 0.6f, 0.7f), placed({0, 0, 0.7}, 0.7));
         const auto lamp = quad({-0.5f, -0.5f, 3}, {-0.5f, 0.5f, 3}, {0.5f, 0.5f, 3}, {0.5f, -0.5f, 3});
         instance(lamp, diffuse(0, 0, 0), placed({-2, 0, 0}), scene::Emission{.radiance = {6, 5, 4}});
@@ -68,7 +70,7 @@ double largest_z(const LightPictures& layers, std::span<const glm::vec3> weights
 } // namespace
 
 TEST_CASE("light mixer: the sum of all lights' pictures is the picture of the scene, also of other strengths") {
-    Stage stage;
+    Stage stage(GENERATE(false, true));
     LightMixer mixer([] {});
     const auto layers = mixed(mixer, stage, 256);
     REQUIRE(layers);
