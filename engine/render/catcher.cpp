@@ -41,7 +41,9 @@ void remove_shadows(FilmImage& image) {
 void scale_errors(FilmImage& image) {
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         if (image.caught[i] == 0) continue;
-        const glm::vec3 behind = image.backdrop[i] / glm::max(image.without[i], glm::vec3(1e-20f));
+        glm::vec3 behind(0); // where no light comes the ratio is 1, without error
+        for (int k = 0; k < 3; ++k)
+            if (image.without[i][k] > 0) behind[k] = image.backdrop[i][k] / image.without[i][k];
         const double light = luminance(image.without[i]);
         const double factor = light > 0 ? luminance(image.backdrop[i]) / light : 0;
         // Beside other objects in the pixel, both count.
