@@ -126,7 +126,8 @@ void link_note(PanelUi& e, const scene::Group& group) {
     const char* word = "linked";
     const ImVec2 lower = ImGui::GetItemRectMin(), upper = ImGui::GetItemRectMax();
     const ImVec2 size = ImGui::CalcTextSize(word);
-    const ImVec2 at(upper.x - size.x - ImGui::GetStyle().FramePadding.x, (lower.y + upper.y - size.y) / 2);
+    const float eye = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x; // at the right end of the row
+    const ImVec2 at(upper.x - eye - size.x, (lower.y + upper.y - size.y) / 2);
     ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(colors::dim), word);
     tip(fmt::format("Linked from {}. Moved, hidden, copied and deleted as a whole", source->file).c_str());
     e.mark("outliner.linked." + group.name);

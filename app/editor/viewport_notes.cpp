@@ -2,11 +2,13 @@
 // The viewport's toolbar, its state display, and the first-start hints.
 #include "actions.hpp"
 #include "files.hpp"
+#include "linking.hpp"
 #include "opening.hpp"
 #include "panel_context.hpp"
 #include "panels/scene_development.hpp"
 #include "panels/scene_panel.hpp"
 #include "panels/state.hpp"
+#include "scene/links.hpp"
 #include "scene_pictures.hpp"
 #include "snap_drag.hpp"
 #include "theme.hpp"
@@ -124,6 +126,11 @@ std::string selection_note(const SelectContext& e) {
     const Selection& selected = e.selection;
     const auto& ids = selected.instances();
     if (ids.empty()) return "";
+    if (const auto link = selected_link(e)) {
+        const scene::Group& group = e.scene().groups[link];
+        const std::filesystem::path file = scene::link_source(group)->file;
+        return fmt::format("{}: linked from {}", group.name, file.filename().string());
+    }
     const Whole whole = selected.click_whole(e.scene(), selected.active());
     if (whole && ids.size() > 1 && selected.click_target(e.scene(), selected.active()).size() == ids.size()) {
         const scene::Group* group = whole.thing ? nullptr : e.scene().groups.find(whole.group);
