@@ -112,3 +112,29 @@ def test_merge_develops_a_rendered_picture(half, tmp_path):
     restage("merge", linear, "-o", tmp_path / "agx.png", "--tone", "agx")
     direct = half("direct.png", "--tone", "agx")
     assert abs(pixels(tmp_path / "agx.png") - direct).max() <= 1
+
+
+def test_a_shadow_catcher_has_the_alpha_of_its_shadow(tmp_path):
+    scene = tmp_path / "ball.pbrt"
+    scene.write_text("""LookAt 0 -4 2  0 0 0.3  0 0 1
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 48 "integer yresolution" 48
+WorldBegin
+LightSource "infinite" "rgb L" [0.3 0.4 0.6]
+LightSource "distant" "rgb L" [3 3 3] "point3 from" [3 0 3] "point3 to" [0 0 0]
+Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+AttributeBegin
+  Translate 0 0 0.5
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+Shape "bilinearmesh" "point3 P" [-9 -9 0  9 -9 0  -9 9 0  9 9 0]
+""")
+    options = ["--set", "bilinearmesh.catcher=true", "--background", "transparent", "--spp", 32]
+    restage("render", scene, "-o", tmp_path / "ball.png", *options)
+    alpha = pixels(tmp_path / "ball.png")[..., 3]
+    assert alpha[0, 0] == 0 and alpha[40:, :12].mean() < 20  # the sky, and the floor on the side of the sun
+    assert alpha[20, 24] == 255  # the ball
+    assert 120 < alpha[25:29, 33:37].mean() < 250  # its shadow, lit by the sky
+    restage("render", scene, "-o", tmp_path / "half.exr", *options, "--aov", "all")
+    layers = exr_file.read(tmp_path / "half.exr")
+    assert layers["coverage.A"][44, 4] == 1 and layers["A"][40:, :12].mean() < 0.1
