@@ -119,10 +119,9 @@ void bind_verbs(nb::class_<C>& c) {
                 }
                 self.in->edit(move_instances(self.in->scene(), ids, glm::translate(glm::dmat4(1), way)));
             },
-            "by"_a, "collide"_a = false,
+            "by"_a, nb::kw_only(), "collide"_a = false,
             "Moves by this vector, world space [scene units]. collide=True: only until it touches another visible "
-            "object, "
-            "and on along that; contact before the move does not hold it.")
+            "object, and on along that; contact before the move does not hold it.")
         .def(
             "move_to",
             [](const C& self, const Three& place) {

@@ -67,4 +67,5 @@ def test_help_and_completion_know_the_signature():
     assert str(inspect.signature(restage.Session.add_light)) == (
         "(self, kind: 'str', value: 'numpy.typing.ArrayLike' = [1.0, 1.0, 1.0], name: 'str' = 'Light') -> 'Light'")
     assert list(inspect.signature(restage.Object.rotate).parameters) == ["self", "degrees", "axis", "center"]
-    assert restage.Object.move.__doc__ == "Moves by this vector, world space [scene units]."
+    assert list(inspect.signature(restage.Object.move).parameters) == ["self", "by", "collide"]
+    assert restage.Object.move.__doc__.startswith("Moves by this vector, world space [scene units].")
