@@ -108,7 +108,7 @@ void cell(SelectContext& e, const Asset& asset, float side) {
     ImGui::PushID(asset.path.c_str());
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton("asset", {side, side + ImGui::GetTextLineHeight() + 4});
+    ImGui::InvisibleButton("asset", {side, side + ImGui::GetTextLineHeight() + 4 * ImGui::GetStyle().FontScaleMain});
     const bool visible = ImGui::IsItemVisible(), hovered = ImGui::IsItemHovered();
     e.mark("asset." + asset.name);
     if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) apply(e, asset);
@@ -145,7 +145,8 @@ void cell(SelectContext& e, const Asset& asset, float side) {
                       {at.x + (side - icon) / 2, at.y + side * 0.12f}, icon, color);
         draw->AddText({at.x + (side - extent.x) / 2, at.y + (side - extent.y + icon) / 2}, color, label);
     }
-    const ImVec2 name(at.x, at.y + side + 2), end(at.x + side, name.y + ImGui::GetTextLineHeight());
+    const float gap = 2 * ImGui::GetStyle().FontScaleMain;
+    const ImVec2 name(at.x, at.y + side + gap), end(at.x + side, name.y + ImGui::GetTextLineHeight() + gap);
     ImGui::RenderTextEllipsis(draw, name, end, end.x, asset.name.c_str(), nullptr, nullptr);
     ImGui::EndGroup();
     ImGui::PopID();

@@ -81,7 +81,8 @@ bool cell(SelectContext& e, const LibraryItem& item, const std::string& mark, fl
     ImGui::BeginGroup();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool clicked =
-        ImGui::InvisibleButton("ball", {side, side + ImGui::GetTextLineHeight() + 4}, ImGuiButtonFlags_EnableNav);
+        ImGui::InvisibleButton("ball", {side, side + ImGui::GetTextLineHeight() + 4 * ImGui::GetStyle().FontScaleMain},
+                               ImGuiButtonFlags_EnableNav);
     const bool hovered = ImGui::IsItemHovered(), visible = ImGui::IsItemVisible();
     e.mark("materials." + mark);
     if (clicked) give_to_selection(e, item);
@@ -103,7 +104,8 @@ bool cell(SelectContext& e, const LibraryItem& item, const std::string& mark, fl
     }
     if (hovered || ImGui::IsItemFocused())
         draw->AddRect(at, end, ImGui::GetColorU32(colors::hover), round, 2 * ImGui::GetStyle().FontScaleMain);
-    const ImVec2 name(at.x, at.y + side + 2), name_end(at.x + side, name.y + ImGui::GetTextLineHeight());
+    const float gap = 2 * ImGui::GetStyle().FontScaleMain;
+    const ImVec2 name(at.x, at.y + side + gap), name_end(at.x + side, name.y + ImGui::GetTextLineHeight() + gap);
     ImGui::RenderTextEllipsis(draw, name, name_end, name_end.x, item.name.c_str(), nullptr, nullptr);
     ImGui::EndGroup();
     ImGui::PopID();
