@@ -3,6 +3,7 @@
 
 #include <imgui_internal.h>
 #include <cstring>
+#include <utility>
 
 namespace restage::editor {
 
@@ -14,11 +15,16 @@ Texture::~Texture() {
     IM_ASSERT(!ImGui::GetCurrentContext() && "the window is destroyed before its textures");
     for (auto& [size, data] : sizes_)
         IM_DELETE(data);
+    for (ImTextureData* data : leaving_)
+        IM_DELETE(data);
 }
 
 void Texture::set(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> rgba) {
     if (width == 0 || height == 0 || rgba.size() < std::size_t(width) * height) return;
     ImTextureData*& data = sizes_[{int(width), int(height)}];
+    if (data && (data->Status == ImTextureStatus_WantDestroy || data->Status == ImTextureStatus_Destroyed))
+        leaving_.push_back(std::exchange(data, nullptr)); // the backend has it, or is done with it
+    if (data) data->WantDestroyNextFrame = false;
     if (!data) {
         data = IM_NEW(ImTextureData)();
         data->Create(ImTextureFormat_RGBA32, int(width), int(height));
@@ -35,6 +41,12 @@ void Texture::set(std::uint32_t width, std::uint32_t height, std::span<const std
 }
 
 void Texture::retire_others() {
+    std::erase_if(leaving_, [](ImTextureData* data) {
+        if (data->Status != ImTextureStatus_Destroyed) return false;
+        ImGui::UnregisterUserTexture(data);
+        IM_DELETE(data);
+        return true;
+    });
     for (auto it = sizes_.begin(); it != sizes_.end();) {
         ImTextureData* data = it->second;
         if (data != current_ && sizes_.size() > most_sizes) data->WantDestroyNextFrame = true;

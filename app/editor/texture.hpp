@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace restage::editor {
 
@@ -30,6 +31,7 @@ class Texture {
     void retire_others();
     ImTextureData* current_ = nullptr;
     std::map<std::pair<int, int>, ImTextureData*> sizes_;
+    std::vector<ImTextureData*> leaving_; // of sizes that came back before the backend had destroyed them
 };
 
 } // namespace restage::editor
