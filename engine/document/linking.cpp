@@ -37,7 +37,7 @@ ReadOptions reading_of(const LinkSource& source, const plugin::Registry& registr
 Result<> reload_link(Session& session, Id<Group> id, const io::ImportedScene& imported) {
     const Group* link = session.scene().groups.find(id);
     const auto source = link ? link_source(*link) : std::nullopt;
-    if (!source) return fail("this is not a link");
+    if (!source) return fail((link ? '"' + link->name + '"' : "the group") + " is not linked from a file");
     if (imported.scene.instances.live() == 0) return fail(source->file + ": contains no objects");
     RESTAGE_CHECK(session.edit(replace_link(session.scene(), id, as_link(imported.scene, link->name, *source))));
     return {};

@@ -75,7 +75,7 @@ Result<std::vector<Variant>> read_variants(const Base& base, std::span<const std
 }
 
 Result<std::vector<std::string>> looks_from_variants(Session& session, std::span<const Variant> variants) {
-    if (variants.empty()) return fail("the file has no variants");
+    if (variants.empty()) return fail(session.base().file + ": the file has no variants");
     Looks looks = session.looks();
     std::set<std::string> taken;
     for (const Look& look : looks.list)

@@ -80,6 +80,13 @@ bool near(const glm::dmat4& a, const glm::dmat4& b) {
     return true;
 }
 
+Result<const Group*> linked_group(const Scene& scene, Id<Group> link) {
+    const Group* group = scene.groups.find(link);
+    if (!group) return fail("there is no such group");
+    if (!find_value(group->origin, file_id)) return fail('"' + group->name + "\" is not linked from a file");
+    return group;
+}
+
 } // namespace
 
 std::optional<LinkSource> link_source(const Group& group) {
@@ -263,8 +270,7 @@ Result<> check_links(const Scene& scene, const Edit& edit) {
 }
 
 Result<Edit> make_editable(const Scene& scene, Id<Group> link) {
-    const Group* group = scene.groups.find(link);
-    if (!group || !link_source(*group)) return fail("this is not a link");
+    RESTAGE_TRY(const Group* const group, linked_group(scene, link));
     Edit edit{"Make " + group->name + " editable", {}};
     const auto add = [&]<class T>(Id<T> id, const T& before) {
         T after = before;
@@ -278,8 +284,7 @@ Result<Edit> make_editable(const Scene& scene, Id<Group> link) {
 }
 
 Result<Edit> replace_link(const Scene& scene, Id<Group> link, const Scene& read) {
-    const Group* group = scene.groups.find(link);
-    if (!group || !link_source(*group)) return fail("this is not a link");
+    RESTAGE_TRY(const Group* const group, linked_group(scene, link));
     const std::vector<Id<Instance>> objects = objects_of(scene, link);
     const bool hidden =
         !objects.empty() && std::ranges::all_of(objects, [&](Id<Instance> id) { return scene.instances[id].hidden; });

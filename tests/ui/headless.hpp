@@ -20,6 +20,7 @@
 #include <implot.h>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
+#include <functional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -112,6 +113,14 @@ class Headless {
         return {found.x0, found.y0, found.x1, found.y1};
     }
     // Likewise for widgets that appear with the first picture, however long that takes on a busy machine.
+    static void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
+        const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+        while (!there() && std::chrono::steady_clock::now() < limit) {
+            ctx->Yield();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        IM_CHECK(there());
+    }
     void wait_for(ImGuiTestContext* ctx, const std::string& mark) {
         const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(5);
         while (!editor_->find_mark(mark) && std::chrono::steady_clock::now() < limit) {

@@ -18,15 +18,6 @@ namespace {
 
 constexpr const char* obj = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no a\nf 1 3 2\no b\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
-void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (!there() && std::chrono::steady_clock::now() < limit) {
-        ctx->Yield();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    IM_CHECK(there());
-}
-
 struct Files {
     test::TemporaryFolder folder;
     std::string write(const char* name, const char* bytes = obj) const {
@@ -54,7 +45,7 @@ void type_file(Headless& h, ImGuiTestContext* ctx, const char* action, const std
 void opened(Headless& h, ImGuiTestContext* ctx, const std::function<void()>& how) {
     const std::uint64_t before = h.editor().document();
     how();
-    wait_until(ctx, [&] { return h.editor().document() != before; });
+    h.wait_until(ctx, [&] { return h.editor().document() != before; });
     ctx->Yield(2);
 }
 
@@ -95,7 +86,7 @@ TEST_CASE("a file's options are chosen when it is opened or inserted", "[ui]") {
         type_file(h, ctx, "file.insert", other);
         h.click(ctx, "import.obj.merge"); // off again
         h.click(ctx, "browser.accept");
-        wait_until(ctx, [&] { return h.step() == 1; });
+        h.wait_until(ctx, [&] { return h.step() == 1; });
         IM_CHECK(h.scene().instances.live() == 3);
         const document::DataSource* source = nullptr;
         h.scene().meshes.each([&](auto, const scene::Mesh& m) {

@@ -17,15 +17,6 @@ namespace {
 constexpr const char* two = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no left\nf 1 3 2\no right\nf 1 2 4\nf 2 3 4\n";
 constexpr const char* three = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\no left\nf 1 3 2\no right\nf 1 2 4\no top\nf 2 3 4\n";
 
-void wait_until(ImGuiTestContext* ctx, const std::function<bool()>& there) {
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    while (!there() && std::chrono::steady_clock::now() < limit) {
-        ctx->Yield();
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    IM_CHECK(there());
-}
-
 } // namespace
 
 TEST_CASE("a linked file is one thing, follows its file, and is made editable", "[ui][links]") {
@@ -41,7 +32,7 @@ TEST_CASE("a linked file is one thing, follows its file, and is made editable", 
         ctx->KeyCharsReplace(file.string().c_str());
         ctx->Yield(2);
         h.click(ctx, "browser.accept");
-        wait_until(ctx, [&] { return h.step() == 1; });
+        h.wait_until(ctx, [&] { return h.step() == 1; });
         IM_CHECK(h.scene().instances.live() == before + 2);
         IM_CHECK(scene::all_links(h.scene()).size() == 1);
         h.focus(ctx, "Outliner");
@@ -55,12 +46,12 @@ TEST_CASE("a linked file is one thing, follows its file, and is made editable", 
 
         std::ofstream(file) << three;
         std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(5));
-        wait_until(ctx, [&] { return h.scene().instances.live() == before + 3; });
+        h.wait_until(ctx, [&] { return h.scene().instances.live() == before + 3; });
         IM_CHECK(h.step() == 2);
 
         IM_CHECK(h.editor().action_state("edit.make_editable").enabled);
         h.editor().run("edit.make_editable");
-        wait_until(ctx, [&] { return h.step() == 3; });
+        h.wait_until(ctx, [&] { return h.step() == 3; });
         IM_CHECK(!h.has(ctx, "outliner.linked.pair"));
         IM_CHECK(!h.editor().action_state("file.reload_links").enabled);
         h.select("left");

@@ -121,5 +121,5 @@ TEST_CASE("each variant becomes a look in which only materials differ", "[gltf][
     REQUIRE(session.undo());
     REQUIRE(session.undo());
     CHECK(session.looks().list.empty());
-    CHECK(document::looks_from_variants(session, {}).error().message == "the file has no variants");
+    CHECK(document::looks_from_variants(session, {}).error().message.ends_with(": the file has no variants"));
 }
